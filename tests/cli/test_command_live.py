@@ -13,8 +13,7 @@ import pytest
 
 from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.cli.shell import CommandInterrupted, Shell, run_line
-from turtle_lesson.ros.runtime.run_world import live_rate, set_player
-from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.runtime.world import World, live_rate, set_player
 from turtle_lesson.ros.stdlib.clocks import real_monotonic
 
 

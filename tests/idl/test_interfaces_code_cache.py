@@ -12,8 +12,8 @@ from typing import Any
 
 import pytest
 
-from turtle_lesson.ros.idl import code_cache
-from turtle_lesson.ros.idl.code_cache import compiled
+from turtle_lesson.ros.idl import generator
+from turtle_lesson.ros.idl.generator import compiled
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.teaching import limits, runner
 
@@ -28,11 +28,11 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.chdir(tmp_path / "learner")
     monkeypatch.setattr(files, "_opened", None)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.delenv(code_cache.VARIABLE, raising=False)
+    monkeypatch.delenv(generator.VARIABLE, raising=False)
     monkeypatch.setattr(sys, "dont_write_bytecode", False)
-    code_cache.cache_folder.cache_clear()
-    yield code_cache._user_folder()
-    code_cache.cache_folder.cache_clear()
+    generator.cache_folder.cache_clear()
+    yield generator._user_folder()
+    generator.cache_folder.cache_clear()
 
 
 def kept(folder: Path) -> list[Path]:
@@ -53,7 +53,7 @@ def refuse(*_: object, **__: object) -> CodeType:
 def test_what_was_compiled_once_is_read_from_then_on(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first = compiled(SOURCE, "generated/a.py")
     assert len(kept(folder)) == 1
-    monkeypatch.setattr(code_cache, "compile", refuse, raising=False)
+    monkeypatch.setattr(generator, "compile", refuse, raising=False)
     second = compiled(SOURCE, "generated/a.py")
     assert second == first and second.co_filename == "generated/a.py" and value(second) == 42
 
@@ -65,10 +65,10 @@ def test_what_the_code_depends_on_has_a_file_of_its_own(
 ) -> None:
     compiled(SOURCE, "generated/a.py")
     if change == "python":
-        monkeypatch.setattr(code_cache, "MAGIC_NUMBER", b"another")
+        monkeypatch.setattr(generator, "MAGIC_NUMBER", b"another")
     elif change == "optimize":
-        monkeypatch.setattr(code_cache, "sys", _Sys(optimize=2))
-    code_cache.cache_folder.cache_clear()
+        monkeypatch.setattr(generator, "sys", _Sys(optimize=2))
+    generator.cache_folder.cache_clear()
     source, name = (SOURCE.replace("42", "43") if change == "text" else SOURCE), ("b" if change == "name" else "a")
     code = compiled(source, f"generated/{name}.py")
     assert value(code) == (43 if change == "text" else 42) and code.co_filename == f"generated/{name}.py"
@@ -100,7 +100,7 @@ def test_a_damaged_file_is_replaced(folder: Path, damage: Any) -> None:
 def test_a_folder_that_cannot_be_written_changes_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder.parents[2].write_text("a file is in the way")
     assert value(compiled(SOURCE, "generated/a.py")) == 42
-    assert code_cache.cache_folder() is None
+    assert generator.cache_folder() is None
 
 
 @linux
@@ -115,9 +115,9 @@ def test_a_file_appears_whole_or_not_at_all(folder: Path, monkeypatch: pytest.Mo
 
 @linux
 def test_it_is_switched_off_by_a_variable(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(code_cache.VARIABLE, "off")
+    monkeypatch.setenv(generator.VARIABLE, "off")
     assert value(compiled(SOURCE, "generated/a.py")) == 42
-    assert code_cache.cache_folder() is None and not folder.exists()
+    assert generator.cache_folder() is None and not folder.exists()
 
 
 @linux
@@ -137,7 +137,7 @@ def test_a_folder_among_the_learners_files_is_never_used(
     link.symlink_to(here)
     monkeypatch.setenv("XDG_CACHE_HOME", place.format(here=here, link=link))
     assert value(compiled(SOURCE, "generated/a.py")) == 42
-    assert code_cache.cache_folder() is None and list(here.iterdir()) == []
+    assert generator.cache_folder() is None and list(here.iterdir()) == []
 
 
 @linux
@@ -166,7 +166,7 @@ def test_grading_neither_reads_nor_writes_it(tmp_path: Path, in_grading: bool) -
     desk.mkdir()
     variables = limits.environment(home, "mark", str(runner.HOME.parent))
     if not in_grading:
-        del variables[code_cache.VARIABLE]
+        del variables[generator.VARIABLE]
     program = "import turtle_lesson; from std_msgs.msg import String; print(String(data='as ever').data)"
     run = subprocess.run([sys.executable, "-c", program], cwd=desk, env=variables, capture_output=True, text=True)
     assert run.stdout == "as ever\n", run.stderr

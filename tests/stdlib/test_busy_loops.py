@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.runtime.world import World
-from turtle_lesson.ros.stdlib.polling import NAME, without_busy_loops
+from turtle_lesson.ros.stdlib.deadlock import NAME, without_busy_loops
 
 SECOND = 1_000_000_000
 PROGRAM = """

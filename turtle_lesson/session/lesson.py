@@ -13,9 +13,8 @@ from ..learner.workspace import Workspace, workspace
 from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry
 from ..ros.runtime import files
-from ..ros.runtime.console import CellOutput
-from ..ros.runtime.run_world import set_player
-from ..ros.runtime.world import World, open_world, wall_time
+from ..ros.runtime.files import CellOutput
+from ..ros.runtime.world import World, open_world, set_player, wall_time
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
 from .inspection import Inspection

@@ -17,8 +17,7 @@ from ..ros.ament.source import overlay, overlays, remove_all
 from ..ros.cli.jobs import Job, jobs
 from ..ros.idl.names import module_name
 from ..ros.idl.registry import registry
-from ..ros.runtime.console import CellOutput
-from ..ros.runtime.files import home
+from ..ros.runtime.files import CellOutput, home
 from ..ros.sim.process import Process
 from .packages import install
 

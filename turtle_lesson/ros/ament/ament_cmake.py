@@ -14,7 +14,6 @@ from pathlib import Path, PurePosixPath
 from ..idl.names import did_you_mean
 from ..idl.registry import Registry
 from ..sim.errors import shown_path
-from .catalog import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, brought_by, why_not_here
 from .cmake import CMakeFile, Command, evaluate, split_at
 from .cmake_commands import (
     Entry,
@@ -25,7 +24,7 @@ from .cmake_commands import (
     install_items,
     interface_items,
 )
-from .index import package_hint
+from .index import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, brought_by, package_hint, why_not_here
 from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, prefix_of, with_hint
 from .manifest import Found, faults_in, hint_for
 from .package import SHARE, BuildFailure, cmake_message, filled, refused

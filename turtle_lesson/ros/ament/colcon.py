@@ -12,7 +12,7 @@ from ..idl.registry import INSTALLED_SEPARATELY, Registry
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
 from .build import DEFAULTS, Plan, build
-from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
+from .index import CMAKE_PACKAGES, PYTHON_PACKAGES
 from .install_tree import needs_of, prefix_of
 from .manifest import Found, build_type_hint, discover, in_order, needed_by
 from .package import ColconError, filled

@@ -14,8 +14,7 @@ from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .build import types_for
-from .catalog import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .index import is_launch_file
+from .index import CMAKE_PACKAGES, PYTHON_PACKAGES, is_launch_file
 from .install_tree import Environment, Outcome
 from .manifest import Found, discover, read_found
 from .package import PackageError, filled

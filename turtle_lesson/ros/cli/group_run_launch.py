@@ -16,9 +16,8 @@ from .. import launching
 from ..ament.index import changed_since_built
 from ..ament.package import ExecutableNotFoundError
 from ..launching import LaunchError
-from ..runtime.console import FileOutput
-from ..runtime.run_world import run_for
-from ..runtime.world import current_world
+from ..runtime.files import FileOutput
+from ..runtime.world import current_world, run_for
 from ..sim.errors import shown_path
 from ..sim.process import Process
 from .arguments import Argument, arg, cut, duration, either, flag, positive_float

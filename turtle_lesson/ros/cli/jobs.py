@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any, TextIO
 
-from ..runtime.console import BorrowedStream, CellOutput, FileOutput
+from ..runtime.files import BorrowedStream, CellOutput, FileOutput
 from ..sim.process import Process
 from .arguments import printable
 

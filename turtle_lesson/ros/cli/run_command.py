@@ -18,8 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean
 from ..launching.commands import ForeignCommand, UnknownCommand
-from ..runtime.run_world import Waiter
-from ..runtime.world import current_process
+from ..runtime.world import Waiter, current_process
 from .arguments import WIDTH, Stop, cut
 from .jobs import Errors, Job, cell_streams, jobs, lasting
 from .script import ShellSyntaxError, UnfinishedError, expand, pipelines, tokens

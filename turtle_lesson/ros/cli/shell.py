@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean
 from ..runtime import files
-from ..runtime.console import FileOutput
+from ..runtime.files import FileOutput
 from . import terminal
 from .arguments import cut
 from .cells import advice

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean
 from ..runtime import files
-from ..runtime.run_world import run_for
+from ..runtime.world import run_for
 from ..sim.errors import shown_path
 from .jobs import SIGNALS, Builtin, Job, Terminal, export, jobs, options, printenv, send, unset
 

@@ -125,7 +125,7 @@ def stretch_of(args: Namespace) -> float | None:
     """How long an endless verb goes on, in s; None, in live mode or in the background, until it is interrupted."""
     if args.seconds is not None:
         return args.seconds
-    from ..runtime.run_world import live_rate
+    from ..runtime.world import live_rate
 
     process = current_process()
     endless = process.state(Invocation).background or live_rate(process.world) is not None

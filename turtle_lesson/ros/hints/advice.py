@@ -12,8 +12,8 @@ from typing import Any
 from ..idl.names import did_you_mean
 from ..sim import errors
 from ..sim.errors import is_ours, traceback_entries
-from . import attributes, imports
-from .attributes import message_class
+from . import names
+from .names import message_class
 
 _WRONG_CALL = re.compile(r"([\w.]+)\(\) (missing|takes|got an unexpected keyword argument '(\w+)'|got multiple values)")
 
@@ -184,11 +184,11 @@ _BY_TEXT: list[tuple[str, str, Say]] = [
 Adviser = Callable[[BaseException], str]
 
 ADVISERS: tuple[Adviser, ...] = (
-    imports.import_advice,
-    attributes.attribute_advice,
+    names.import_advice,
+    names.attribute_advice,
     call_advice,
     value_advice,
-    imports.device_advice,
+    names.device_advice,
 )
 
 

@@ -8,21 +8,29 @@ ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another
 from __future__ import annotations
 
 import codecs
-import keyword
 import linecache
+import marshal
+import os
 import re
+import sys
 import warnings
 from array import array
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
+from functools import cache
+from hashlib import sha256
+from importlib.util import MAGIC_NUMBER
+from io import FileIO
 from math import inf, isfinite, nan
+from pathlib import Path
 from struct import Struct
-from types import ModuleType
+from types import CodeType, ModuleType
 from typing import Any
 
+from .. import hooks
 from . import message
 from .checks import FLOAT_BOUNDS
-from .code_cache import compiled
 from .codegen import Kind, kind_of, message_source, weight_of, wrapper_source
 from .message import slot_type
 from .model import (
@@ -32,8 +40,6 @@ from .model import (
     Field,
     FieldType,
     InvalidDefinition,
-    InvalidMemberName,
-    InvalidResourceName,
     InvalidType,
     InvalidValue,
     MessageDefinition,
@@ -42,7 +48,7 @@ from .model import (
     Value,
     derived_parts,
 )
-from .names import STRINGS, module_name
+from .names import STRINGS, check_buildable_field, check_class_name, module_name
 
 Resolve = Callable[[FieldType], type]
 """Gives the class of a field's messages; raises UnknownMessageType where there is none."""
@@ -181,7 +187,7 @@ class _Builder:
 
     def _kind(self, definition: MessageDefinition, member: Field) -> Kind:
         try:
-            check_field(member)
+            check_buildable_field(member)
             built = member if member.default is None else replace(member, default=built_default(member))
             return kind_of(definition, built, self._message_class(definition, member.type))
         except InvalidDefinition as error:
@@ -237,51 +243,8 @@ def _located(error: InvalidDefinition, definition: MessageDefinition, member: Fi
 # rosidl_parser/parser.py, rosidl_generator_py; for special numbers ros2/rosidl issue 351, for words of C++ issue
 # 272).
 
-# Attributes of our own in the classes, which fields of these names would replace.
-TAKEN = ("wire_copy", "fields_and_field_types")
-
-
-def _words(text: str) -> frozenset[str]:
-    return frozenset(text.split())
-
-
-CPP_WORDS = _words(
-    """
-    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
-    const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern false
-    float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private
-    protected public register reinterpret_cast restrict return short signed sizeof static static_assert static_cast
-    struct switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void
-    volatile wchar_t while xor xor_eq
-    """
-)
-"""The reserved words of C and of C++17."""
-
 MAX_WEIGHT = 10_000_000
 """How many values and messages one message may consist of: more would fill the memory of a small computer."""
-
-
-def check_field(field: Field) -> None:
-    """Raise InvalidDefinition for a field that no build gets through."""
-    if field.type.base in ("time", "duration"):
-        better = f"builtin_interfaces/{field.type.base.capitalize()}"
-        raise InvalidType(f"the type '{field.type.base}' belongs to ROS 1", hint=f"Write '{better} {field.name}'")
-    if keyword.iskeyword(field.name):
-        raise InvalidMemberName(
-            f"Member name '{field.name}' is a reserved keyword in Python and is not supported at the moment."
-            " Please use a different name"
-        )
-    if field.name in CPP_WORDS:
-        reason = f"Member name '{field.name}' is a keyword of C++, in which ROS 2 also generates code"
-        raise InvalidMemberName(reason, hint=f"Please use a different name, such as '{field.name}_value'")
-    if field.name in TAKEN:
-        raise InvalidMemberName(f"the field name '{field.name}' is taken", hint="Please use a different name")
-
-
-def check_class_name(name: str) -> None:
-    """Raise InvalidResourceName for a message that Python could not have a class of."""
-    if keyword.iskeyword(name):
-        raise InvalidResourceName(f"'{name}' is a keyword of Python, which cannot be the name of a class")
 
 
 def check_weight(name: str, weight: int) -> None:
@@ -344,3 +307,79 @@ def _text(text: str, bound: int | None) -> str:
 def _lost(text: str) -> InvalidValue:
     hint = r"Write three more backslashes before each one that is to stay; write é itself, not \u00e9"
     return InvalidValue(f"value '{text}' has a backslash that no build accepts", hint=hint)
+
+
+# -- the user's cache folder -------------------------------------------------------------------------------------------
+# To compile the code of generated classes takes most of the time of a start, so it is kept. Each Python has a folder of
+# its own. A file is named by a hash of the source text, so that a changed definition and a newer lesson have another
+# one, and begins with a hash of its content: a damaged file counts as none. Where the folder cannot be written nothing
+# is kept. `TURTLE_LESSON_CACHE=off` switches the cache off, as grading does.
+
+VARIABLE = "TURTLE_LESSON_CACHE"
+"""The environment variable that switches the cache off: `off`."""
+
+DIGEST = sha256().digest_size
+
+
+def compiled(source: str, file: str) -> CodeType:
+    """The code of a module's text, as `compile` makes it; `file` is its name in tracebacks."""
+    if (folder := cache_folder()) is None:
+        return compile(source, file, "exec")
+    path = os.path.join(folder, sha256(f"{file}\n{source}".encode()).hexdigest())
+    code = _read(path)
+    if code is None:
+        code = compile(source, file, "exec")
+        if not sys.dont_write_bytecode:
+            _write(path, marshal.dumps(code))
+    return code
+
+
+def _read(path: str) -> CodeType | None:
+    try:
+        with FileIO(path) as file:  # without a buffer, in a fifth of the time
+            content = file.readall()
+    except OSError:
+        return None
+    if sha256(content[DIGEST:]).digest() != content[:DIGEST]:  # marshal would not always notice
+        return None
+    code: CodeType = marshal.loads(content[DIGEST:])
+    return code
+
+
+def _write(path: str, content: bytes) -> None:
+    """Write a file in one step, so that no other process ever sees a part of it."""
+    beside = Path(f"{path}.{os.getpid()}")
+    with suppress(OSError):
+        try:
+            beside.write_bytes(sha256(content).digest() + content)
+            beside.replace(path)
+        finally:
+            beside.unlink(missing_ok=True)
+
+
+@cache
+def cache_folder() -> str | None:
+    """The folder to use, made if need be; None where nobody else must be able to put code into it, and somebody could."""
+    if os.environ.get(VARIABLE) == "off":
+        return None
+    folder = _user_folder()
+    with suppress(OSError, RuntimeError):
+        if not folder.is_absolute() or folder.resolve().is_relative_to(hooks.learners_folder().resolve()):
+            return None  # it may have come with the learner's files
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        found = folder.stat()
+        if sys.platform == "win32" or (found.st_uid == os.getuid() and not found.st_mode & 0o022):
+            return str(folder)
+    return None
+
+
+def _user_folder() -> Path:
+    """Where this user's programs keep what they can make again."""
+    if sys.platform == "win32":
+        place = os.environ.get("LOCALAPPDATA", r"~\AppData\Local")
+    elif sys.platform == "darwin":
+        place = "~/Library/Caches"
+    else:
+        place = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    python = f"{sys.implementation.cache_tag}-{MAGIC_NUMBER.hex()}-{sys.flags.optimize}"
+    return Path(place).expanduser() / "turtle-lesson" / "messages" / python

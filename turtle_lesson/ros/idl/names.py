@@ -5,11 +5,12 @@ The patterns are those of `rosidl_adapter.parser`; the Python module names those
 
 from __future__ import annotations
 
+import keyword
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from .model import InvalidMemberName, InvalidResourceName
+from .model import Field, InvalidMemberName, InvalidResourceName, InvalidType
 
 LOWER_CASE = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
 MESSAGE = re.compile(r"^[A-Z][A-Za-z0-9]*$")
@@ -20,6 +21,20 @@ INTEGERS = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uin
 FLOATS = ("float32", "float64")
 STRINGS = ("string", "wstring")
 PRIMITIVES = ("bool", "byte", "char", *FLOATS, *INTEGERS, *STRINGS, "duration", "time")
+
+TAKEN = ("wire_copy", "fields_and_field_types")
+"""Attributes of our own in the classes, which fields of these names would replace."""
+
+_CPP = """
+    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
+    const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern false
+    float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private
+    protected public register reinterpret_cast restrict return short signed sizeof static static_assert static_cast
+    struct switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void
+    volatile wchar_t while xor xor_eq
+"""
+CPP_WORDS = frozenset(_CPP.split())
+"""The reserved words of C and of C++17."""
 
 _FROM_OTHER_LANGUAGES = {
     "float": "float32",
@@ -78,6 +93,29 @@ def check_constant(name: str) -> None:
     if not CONSTANT.fullmatch(name):
         hint = "Constants are in capitals; a default value is written without '='"
         raise InvalidMemberName(_broken(name, "constant", CONSTANT), hint=hint)
+
+
+def check_buildable_field(field: Field) -> None:
+    """Raise InvalidDefinition for a field that no build gets through."""
+    if field.type.base in ("time", "duration"):
+        better = f"builtin_interfaces/{field.type.base.capitalize()}"
+        raise InvalidType(f"the type '{field.type.base}' belongs to ROS 1", hint=f"Write '{better} {field.name}'")
+    if keyword.iskeyword(field.name):
+        raise InvalidMemberName(
+            f"Member name '{field.name}' is a reserved keyword in Python and is not supported at the moment."
+            " Please use a different name"
+        )
+    if field.name in CPP_WORDS:
+        reason = f"Member name '{field.name}' is a keyword of C++, in which ROS 2 also generates code"
+        raise InvalidMemberName(reason, hint=f"Please use a different name, such as '{field.name}_value'")
+    if field.name in TAKEN:
+        raise InvalidMemberName(f"the field name '{field.name}' is taken", hint="Please use a different name")
+
+
+def check_class_name(name: str) -> None:
+    """Raise InvalidResourceName for a message that Python could not have a class of."""
+    if keyword.iskeyword(name):
+        raise InvalidResourceName(f"'{name}' is a keyword of Python, which cannot be the name of a class")
 
 
 def is_hidden(name: str) -> bool:

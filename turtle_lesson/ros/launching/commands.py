@@ -29,8 +29,7 @@ from launch.launch_description_sources import AnyLaunchDescriptionSource
 from launch.substitutions import CommandFailure
 
 from .. import hooks
-from ..ament.catalog import why_not_here
-from ..ament.index import current_packages
+from ..ament.index import current_packages, why_not_here
 from ..ament.package import ExecutableNotFoundError, NotHereError, PackageNotFoundError
 from ..runtime.world import current_world
 from ..sim.errors import shown_path

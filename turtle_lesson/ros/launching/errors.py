@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..ament import catalog, index
+from ..ament import index
 from ..ament.package import PackageNotFoundError
 from ..idl.names import did_you_mean
 from ..sim.errors import is_ours, learners_frames, shorten, shown_path
@@ -135,7 +135,7 @@ def _hint(error: BaseException, given: list[str]) -> str:
         return f"Give it a value: {name}:=… (in a notebook lesson.launch(…, {name}='…'))."
     if isinstance(error, FileNotFoundError | IsADirectoryError) and isinstance(error.filename, str):
         return _missing_file(Path(error.filename))
-    if isinstance(error, ModuleNotFoundError) and (why := catalog.why_not_here(str(error.name).partition(".")[0])):
+    if isinstance(error, ModuleNotFoundError) and (why := index.why_not_here(str(error.name).partition(".")[0])):
         return f"{error.name} is not available here: {why}."
     if isinstance(error, SyntaxError):
         return "Look at this line and at the end of the one before: is a comma, a bracket or a quote missing?"
@@ -149,8 +149,8 @@ def _hint(error: BaseException, given: list[str]) -> str:
 
 def _missing_file(path: Path) -> str:
     """What there is instead of a file that is not there."""
-    if package := catalog.package_of(path):
-        return f"{package} is not available here: {catalog.why_not_here(package)}."
+    if package := index.package_of(path):
+        return f"{package} is not available here: {index.why_not_here(package)}."
     if path.is_dir():
         return "That is a folder; name the launch file in it."
     if not path.parent.is_dir():

@@ -25,8 +25,7 @@ from launch.launch_description_sources import AnyLaunchDescriptionSource
 from ..ament.index import LaunchedPackages, is_launch_file, seeing
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
-from ..runtime.run_world import run_for
-from ..runtime.world import current_world
+from ..runtime.world import current_world, run_for
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
 from .errors import LaunchError, as_launch_error, learners_cause

@@ -1,4 +1,4 @@
-"""The learner's files: which of them a command may change, and how they are written.
+"""The learner's files: which of them a command may change, how they are written, streams into them, and YAML in them.
 
 A command of the terminal (also a redirection, `ros2 bag record`, `ros2 pkg create`, `colcon build`) changes files in the
 learner's folder only, through no `cd`, path or symbolic link, and leaves the lesson's pages in it alone. `check` decides that,
@@ -13,9 +13,17 @@ import itertools
 import os
 import shutil
 from collections.abc import Callable, Iterable
+from contextlib import suppress
+from io import TextIOBase
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, TextIO
+
+import yaml
 
 from .. import hooks
+
+if TYPE_CHECKING:
+    from ..sim.simulation import Simulation
 
 OPENED = "TURTLE_LESSON_OPENED"
 """The environment variable in which `turtle-lesson open` names the folder that it opens JupyterLab on."""
@@ -167,3 +175,121 @@ def write(file: Path, text: str) -> None:
         beside.replace(file)
     finally:
         beside.unlink(missing_ok=True)
+
+
+# -- streams that print into others ------------------------------------------------------------------------------------
+
+
+class BorrowedStream(TextIOBase):
+    """A text stream that prints into another one, which lives on when nobody holds this one any more."""
+
+    def writable(self) -> bool:
+        """It can be written to."""
+        return True
+
+    def __del__(self) -> None:
+        """Python would flush it, wherever the running code stands: in Jupyter that waits, and swallows an interrupt."""
+
+
+class CellOutput(BorrowedStream):
+    """A text stream that prints in the running cell's ordinary output, also what a process says on its stderr."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+
+    def write(self, text: str) -> int:
+        """Print a text, as it is."""
+        return self._simulation.cell_stdout.write(text)
+
+    def flush(self) -> None:
+        """Show what was written."""
+        self._simulation.cell_stdout.flush()
+
+
+class FileOutput(BorrowedStream):
+    """A text stream that appends to a file as long as anybody prints: behind `>`, a program may outlast its command.
+
+    No file stays open. What is printed after its folder was removed is lost, as on Linux. `instead_of` is the stream that
+    it stands for: a command's note that its program goes on belongs there.
+    """
+
+    def __init__(self, path: Path, instead_of: TextIO) -> None:
+        self._path = path.absolute()
+        self._file = self._identity()
+        self.instead_of = instead_of
+
+    def write(self, text: str) -> int:
+        """Append a text, as it is."""
+        if self._identity() != self._file:  # somebody has put another in its place, or a link
+            check(self._path)
+        with suppress(FileNotFoundError), self._path.open("a", encoding="utf-8", errors="surrogateescape") as file:
+            file.write(text)
+        return len(text)
+
+    def _identity(self) -> tuple[int, int] | None:
+        with suppress(OSError):
+            about = self._path.stat()
+            return about.st_dev, about.st_ino
+        return None
+
+
+# -- YAML that somebody else may have written: how large it may be -----------------------------------------------------
+# With aliases (`*name`) a few lines can stand for billions of values, and brackets can be nested until Python's stack ends.
+
+LONGEST = 1_000_000
+"""How many characters are read."""
+
+DEEPEST = 100
+"""How deeply lists and mappings may be nested."""
+
+MOST = 100_000
+"""How many values all aliases together may stand for."""
+
+
+class BoundedLoader(yaml.SafeLoader):
+    """PyYAML's safe loader, with limits. Raises yaml.YAMLError beyond them."""
+
+    def __init__(self, text: str) -> None:
+        if len(text) > LONGEST:
+            raise yaml.YAMLError(f"it has {len(text):,} characters, and at most {LONGEST:,} are read")
+        super().__init__(text)
+        self._depth = 0
+        self._values = 0  # as many as there would be if each alias were written out
+        self._written_out = 0
+        self._sizes: dict[str, int] = {}  # how many of them an anchor stands for
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        """The next value, or the one that an alias stands for."""
+        event = self.peek_event()
+        if isinstance(event, yaml.AliasEvent):
+            self._count_alias(event)
+            return super().compose_node(parent, index)
+        before = self._values
+        self._values += 1
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise _refused(f"lists and mappings are nested more than {DEEPEST} deep", event)
+        node = super().compose_node(parent, index)
+        self._depth -= 1
+        if event.anchor is not None:
+            self._sizes[event.anchor] = self._values - before
+        return node
+
+    def _count_alias(self, event: Any) -> None:
+        if event.anchor in self.anchors and event.anchor not in self._sizes:
+            raise _refused(f"*{event.anchor} stands for a value that contains it, which has no end", event)
+        size = self._sizes.get(event.anchor, 0)
+        self._values += size
+        self._written_out += size
+        if self._written_out > MOST:
+            reason = f"its aliases stand for more than {MOST:,} values: *{event.anchor} alone for {size:,}"
+            raise _refused(f"{reason}. Write out what is needed", event)
+
+
+def _refused(reason: str, event: Any) -> yaml.MarkedYAMLError:
+    return yaml.composer.ComposerError(None, None, reason, event.start_mark)
+
+
+def safe_load(text: str) -> Any:
+    """The value of a text, as `yaml.safe_load` gives it. Raises yaml.YAMLError, also for what is too much."""
+    return yaml.load(text, BoundedLoader)

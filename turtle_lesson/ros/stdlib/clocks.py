@@ -88,8 +88,8 @@ DATES: dict[str, Callable[..., Any]] = {
 
 # -- dates -------------------------------------------------------------------------------------------------------------
 # The real classes of `datetime` are made in C and cannot be changed. So the import statements of a program get a module
-# with two classes derived from them; `isinstance(…, datetime)` gives the same answer for both. Moments without a time zone
-# are taken for UTC, and not for the computer's.
+# with two classes derived from them; `isinstance(…, datetime)` gives the same answer for both. Moments without a time
+# zone are taken for UTC, and not for the computer's.
 
 UTC = real.UTC
 

@@ -1,4 +1,4 @@
-"""Locks that hold up a strand in virtual time. All else in `threading` and `queue` is built on them.
+"""Locks that hold up a strand in virtual time, and the queue in C. All else in `threading` and `queue` is built on them.
 
 Such a lock is a real one inside. So it may be used from everywhere: another thread of the real computer waits for it in
 real time, and in a plain notebook cell waiting for it runs the simulation. Of the threads that wait, the first one is
@@ -7,6 +7,7 @@ woken; but a thread that asks while the lock is free gets it, as in Python.
 
 from __future__ import annotations
 
+import queue
 import sys
 import threading
 from _thread import allocate_lock
@@ -19,9 +20,8 @@ from ..sim.errors import WorldClosed
 from ..sim.run_blocking import drive
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import Strand, running_strand
-from .deadlock import look_for_hope
+from .deadlock import count_look, look_for_hope
 from .ownership import is_for_everybody, notebook_here, process_here
-from .polling import count_look
 
 RealLock = type(allocate_lock())
 
@@ -214,3 +214,42 @@ def is_virtual(waited_for: Any) -> bool:
         if isinstance(waited_for, (VirtualLock, VirtualRLock)):
             return True
     return False
+
+
+class VirtualSimpleQueue:
+    """What `queue.SimpleQueue()` is in a simulated process."""
+
+    __module__ = "queue"
+
+    def __init__(self) -> None:
+        self._items: deque[Any] = deque()
+        self._count = threading.Semaphore(0)
+
+    def put(self, item: Any, block: bool = True, timeout: float | None = None) -> None:
+        """Add an item; there is always room."""
+        self._items.append(item)
+        self._count.release()
+
+    def get(self, block: bool = True, timeout: float | None = None) -> Any:
+        """Take the oldest item, waiting for one if `block`, at most `timeout` s. queue.Empty if there is none."""
+        if timeout is not None and timeout < 0:
+            raise ValueError("'timeout' must be a non-negative number")
+        if not self._count.acquire(block, timeout):
+            raise queue.Empty
+        return self._items.popleft()
+
+    def put_nowait(self, item: Any) -> None:
+        """As `put`."""
+        self.put(item)
+
+    def get_nowait(self) -> Any:
+        """As `get(False)`."""
+        return self.get(False)
+
+    def empty(self) -> bool:
+        """Whether there is no item."""
+        return not self._items
+
+    def qsize(self) -> int:
+        """How many items there are."""
+        return len(self._items)

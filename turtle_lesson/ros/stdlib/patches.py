@@ -31,12 +31,10 @@ from ..sim.strand import Strand
 from . import (
     asyncio_loops,
     clocks,
-    environment,
+    deadlock,
     locks,
     ownership,
-    polling,
-    pools,
-    signals,
+    process_state,
     subprocesses,
     terminals,
     threads,
@@ -141,24 +139,24 @@ TABLE: tuple[Patch, ...] = (
     _function("time", threads.sleep, TIME, stage=Stage.IMPORT),
     *(_in_process("time", each, DATE, name) for name, each in clocks.DATES.items()),
     Patch("logging:Formatter", "converter", _now("time", "localtime"), DATE),
-    _function("random", environment.random, DRAW, stage=Stage.IMPORT),
+    _function("random", process_state.random, DRAW, stage=Stage.IMPORT),
     *(
-        _in_process("random", environment.drawing(name), DRAW, name, Stage.IMPORT)
+        _in_process("random", process_state.drawing(name), DRAW, name, Stage.IMPORT)
         for name in random.__all__
         if name != "random" and type(getattr(getattr(random, name), "__self__", None)) is random.Random
     ),
-    *(_in_process("numpy.random", environment.numpy_drawing(name), DRAW, name) for name in environment.NUMPY),
-    _function("numpy.random", environment.default_rng, DRAW),
+    *(_in_process("numpy.random", process_state.numpy_drawing(name), DRAW, name) for name in process_state.NUMPY),
+    _function("numpy.random", process_state.default_rng, DRAW),
     Patch("threading", "Lock", lambda real: facade(real, locks.VirtualLock, locks.RealLock), WAITS),
     _function("threading", locks.rlock, WAITS, "RLock"),
-    Patch("threading:Event", "is_set", lambda real: polling.is_set, "polling takes time, or would never end"),
+    Patch("threading:Event", "is_set", lambda real: deadlock.is_set, "polling takes time, or would never end"),
     _method("threading:Condition", "wait", locks.condition_wait, WAITS),
     _function("threading", locks.peek, PEEK, "_time"),
     _function("queue", locks.peek, PEEK, "time"),
     Patch(
         "queue",
         "SimpleQueue",
-        lambda real: facade(real, pools.VirtualSimpleQueue),
+        lambda real: facade(real, locks.VirtualSimpleQueue),
         "Python's is made in C, on a lock of its own",
     ),
     *(
@@ -182,33 +180,37 @@ TABLE: tuple[Patch, ...] = (
         lambda real: facade(real, ownership.VirtualLocal),
         "Python's is made in C, and goes by real threads",
     ),
-    _method("concurrent.futures.thread:ThreadPoolExecutor", "__init__", pools.init, "eight threads on every computer"),
-    _function("concurrent.futures.thread:ThreadPoolExecutor", pools.next_number, NAMES, "_counter"),
+    _method(
+        "concurrent.futures.thread:ThreadPoolExecutor", "__init__", threads.init, "eight threads on every computer"
+    ),
+    _function("concurrent.futures.thread:ThreadPoolExecutor", threads.next_number, NAMES, "_counter"),
     Patch(
         "concurrent.futures.thread",
         "_global_shutdown_lock",
-        pools.NotInStrands,
+        threads.NotInStrands,
         "a strand must not wait for another one with it",
     ),
-    Patch("concurrent.futures.thread", "_threads_queues", pools.Queues, "Python would join simulated threads at exit"),
+    Patch(
+        "concurrent.futures.thread", "_threads_queues", threads.Queues, "Python would join simulated threads at exit"
+    ),
     *(_in_process("asyncio.events", each, LOOPS) for each in asyncio_loops.REPLACEMENTS),
     *(Patch("asyncio", e.__name__, _now("asyncio.events", e.__name__), LOOPS) for e in asyncio_loops.REPLACEMENTS),
-    *(_in_process("signal", each, SIGNAL, cells=False) for each in signals.REPLACEMENTS),
-    _in_process("signal", signals.pause, SIGNAL),
-    _function("os", signals.kill, SIGNAL),
-    _in_process("_thread", signals.interrupt_main, SIGNAL, cells=False),
-    _in_process("os", signals.exit_now, "ends the simulated process alone", "_exit", cells=False),
+    *(_in_process("signal", each, SIGNAL, cells=False) for each in process_state.REPLACEMENTS),
+    _in_process("signal", process_state.pause, SIGNAL),
+    _function("os", process_state.kill, SIGNAL),
+    _in_process("_thread", process_state.interrupt_main, SIGNAL, cells=False),
+    _in_process("os", process_state.exit_now, "ends the simulated process alone", "_exit", cells=False),
     _function("os", terminals.read, "reads the program's own terminal"),
     *(_in_process("os", subprocesses.refusing(f"os.{name}()"), REFUSED, name) for name in ("fork", "forkpty")),
     *(
-        _in_process("signal", signals.refusing(f"signal.{name}()"), REFUSED, name)
+        _in_process("signal", process_state.refusing(f"signal.{name}()"), REFUSED, name)
         for name in ("setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill")
     ),
-    *(_function(owner, environment.showing(), MODULES, name) for owner, name in environment.LOOKS_INTO_SYS_MODULES),
+    *(_function(owner, process_state.showing(), MODULES, name) for owner, name in process_state.LOOKS_INTO_SYS_MODULES),
     _method("ipykernel.iostream:OutStream", "flush", in_no_strand, "waits for a real thread, in which no time passes"),
-    Patch("os:environ", "__class__", lambda real: environment.ProcessEnviron, "variables are a process's own"),
-    _function("atexit", signals.register, AT_EXIT),
-    _function("atexit", signals.unregister, AT_EXIT),
+    Patch("os:environ", "__class__", lambda real: process_state.ProcessEnviron, "variables are a process's own"),
+    _function("atexit", process_state.register, AT_EXIT),
+    _function("atexit", process_state.unregister, AT_EXIT),
     Patch("subprocess", "Popen", lambda real: subprocesses.WorldPopen, CHILD),
     _function("os", subprocesses.system, CHILD),
     _method("multiprocessing.process:BaseProcess", "start", subprocesses.start_process, REFUSED, Stage.USE),
@@ -264,10 +266,10 @@ PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
     (threading.Thread(name="unused"), "_ident _native_id", "the number of a thread"),
     (threading.Thread(name="unused"), "_target", "telling a pool's threads from others"),
     (ownership.module, "local", "the `threading.local` that is written in Python"),
-    (pools.pool, "_worker", "telling a pool's threads from others"),
-    (pools.pool, "_threads_queues", "ending a program's pools"),
-    (pools.pool, "_global_shutdown_lock", "starting work in a pool"),
-    (pools.pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),
+    (threads.pool, "_worker", "telling a pool's threads from others"),
+    (threads.pool, "_threads_queues", "ending a program's pools"),
+    (threads.pool, "_global_shutdown_lock", "starting work in a pool"),
+    (threads.pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),
     (asyncio_loops.asyncio.BaseEventLoop, "_run_once", "a loop that waits in virtual time"),
 )
 """What is used of the standard library without being documented: owner, names and purpose.

@@ -24,7 +24,7 @@ from types import CodeType, ModuleType
 from typing import TYPE_CHECKING, Any
 
 from ..sim.strand import running_strand
-from .polling import NAME, another_look, without_busy_loops
+from .deadlock import NAME, another_look, without_busy_loops
 from .terminals import ProgramInput
 
 if TYPE_CHECKING:

@@ -44,9 +44,12 @@ def demo_packages() -> list[Package]:
         "talker": program(demos, "talker", 1, "Publishing: '{}'"),
         "listener_best_effort": program(demos, "listener_best_effort"),
     }
+    cpp = HERE / "demo_nodes_cpp"
+    launch_files = {path.relative_to(cpp).as_posix(): path for path in cpp.glob("launch/*/*_launch.*")}
+    launch_files |= {name.replace("_launch.", ".launch."): path for name, path in launch_files.items()}  # as in Humble
     return [
         Package("demo_nodes_py", HERE / "demos", executables=of_python),
-        Package("demo_nodes_cpp", HERE / "demo_nodes_cpp", executables=of_cpp),
+        Package("demo_nodes_cpp", cpp, executables=of_cpp, installed=launch_files),
     ]
 
 

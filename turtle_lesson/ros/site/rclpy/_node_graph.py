@@ -13,7 +13,7 @@ from turtle_lesson.ros.rmw.topic import Topic
 from turtle_lesson.ros.rmw.writer import Writer
 from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
-from turtle_lesson.ros.stdlib.polling import looked_in_vain
+from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
 from ._blocking import drives_the_simulation
 from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError, refuse_destroyed, refuse_ended

@@ -10,8 +10,7 @@ from turtle_lesson.ros.rmw.service import ClientEnd
 from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
-from turtle_lesson.ros.stdlib.deadlock import wait_in_vain
-from turtle_lesson.ros.stdlib.polling import looked_in_vain
+from turtle_lesson.ros.stdlib.deadlock import looked_in_vain, wait_in_vain
 
 from ._blocking import drives_the_simulation
 from ._deadlock import Words, is_notebook, why_never_answered

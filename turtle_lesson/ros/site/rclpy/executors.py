@@ -16,7 +16,7 @@ from turtle_lesson.ros.sim.errors import NeverWakes, print_error
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import Strand, running_strand
 from turtle_lesson.ros.stdlib.deadlock import IDLE, look_after, wait_in_vain
-from turtle_lesson.ros.stdlib.pools import number_of_pool
+from turtle_lesson.ros.stdlib.threads import number_of_pool
 
 from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
 from ._deadlock import executor_of_worker, is_notebook, others_may_act, register_worker, why_never_done

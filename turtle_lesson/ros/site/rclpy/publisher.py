@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 
 from turtle_lesson.ros.idl import checks
 from turtle_lesson.ros.rmw.writer import Writer
-from turtle_lesson.ros.stdlib.polling import looked_in_vain
+from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
 from ._blocking import drives_the_simulation
 from ._entity import Handle

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.strand import running_strand
-from turtle_lesson.ros.stdlib.polling import looked_in_vain
+from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
 from ._deadlock import why_never_awaited
 from ._hints import explain_event_loop

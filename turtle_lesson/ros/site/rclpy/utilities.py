@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from turtle_lesson.ros.runtime.world import current_process
-from turtle_lesson.ros.stdlib.polling import looked_in_vain
+from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
 from ._ros_args import own_arguments
 from ._state import RclpyState

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar
 
-from turtle_lesson.ros.ament import catalog
+from turtle_lesson.ros.ament import index
 from turtle_lesson.ros.ament.package import NotHereError
 
 from .._context import EventHandler, LaunchContext
@@ -176,12 +176,12 @@ class IncludeLaunchDescription(Action):
         try:
             return source.get_launch_description(context)
         except FileNotFoundError:
-            if package := catalog.package_of(source.location):
-                raise catalog.left_out(f"{os.path.basename(source.location)} of {package}", package) from None
+            if package := index.package_of(source.location):
+                raise index.left_out(f"{os.path.basename(source.location)} of {package}", package) from None
             raise
         except InvalidLaunchFileError as error:
             module = getattr(error.__cause__, "name", None) if isinstance(error.__cause__, ImportError) else None
-            if self._written_at is not None and module and (why := catalog.why_not_here(module)):
+            if self._written_at is not None and module and (why := index.why_not_here(module)):
                 raise NotHereError(os.path.basename(source.location), f"it imports {module}, and {why}") from None
             raise
 
