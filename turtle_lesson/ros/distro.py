@@ -24,14 +24,9 @@ VARIABLE = "ROS_DISTRO"
 
 @dataclass(frozen=True)
 class Change:
-    """What one release has changed.
+    """What a release has changed since it appeared: what it is, what was before, and where that can be read.
 
-    Attributes:
-        since: the first release that has it.
-        what: what it is, in a few words.
-        before: what the releases before it do instead.
-        source: where that can be read.
-        is_addition: whether the releases before it only lack it, so that it works here in all of them.
+    An addition is what earlier releases only lack, so that it works here in all of them.
     """
 
     since: str

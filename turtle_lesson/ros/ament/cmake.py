@@ -124,8 +124,7 @@ def _tokens(text: str) -> Iterator[Token]:
 def read_calls(text: str) -> list[Call]:
     """All commands of the text, in order.
 
-    Raises:
-        BuildFailure: the text is no CMake, or its blocks are not nested.
+    Raises BuildFailure where the text is no CMake, or its blocks are not nested.
     """
     tokens = _tokens(text)
     calls = []
@@ -322,8 +321,7 @@ def evaluate(text: str, folder: Path = Path(), variables: dict[str, str] | None 
 
     Where a file builds C++, what is not understood in it is passed over: most of it serves the C++.
 
-    Raises:
-        BuildFailure: CMake would refuse the text, or it needs more of CMake than is understood here.
+    Raises BuildFailure where CMake would refuse the text, or it needs more of CMake than is understood here.
     """
     where = folder.as_posix()
     known = variables or dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), where)

@@ -50,8 +50,7 @@ class Entry:
 def install_entries(found: Found, command: Command) -> list[Entry]:
     """What one `install(…)` names.
 
-    Raises:
-        BuildFailure: CMake would refuse it, or the files go elsewhere than into the package's install folder.
+    Raises BuildFailure where CMake would refuse it, or the files go elsewhere than into the package's install folder.
     """
     where = f"CMakeLists.txt:{command.line} (install)"
     if not command.args:
@@ -202,12 +201,7 @@ class InterfaceCheck:
         self._dependencies, _ = split_at(after, _WORDS)
 
     def configure(self, finished: bool, seen: set[str]) -> None:
-        """What is refused while CMake configures.
-
-        Args:
-            finished: whether ament_package() was called before.
-            seen: what find_package has found.
-        """
+        """What is refused while CMake configures; `finished`: ament_package() was called before, `seen`: what was found."""
         if not self.files:
             raise self._refused(59, "rosidl_generate_interfaces() called without any interface files")
         if finished:

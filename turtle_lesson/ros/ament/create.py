@@ -63,13 +63,7 @@ def parse(words: list[str]) -> argparse.Namespace:
 def create_package(
     args: argparse.Namespace, *, cwd: Path | None = None, stdout: TextIO | None = None, stderr: TextIO | None = None
 ) -> int:
-    """Make the package that `args` (see `add_arguments`) asks for; return the exit code.
-
-    Args:
-        args: what was asked for.
-        cwd: the folder that relative paths begin in.
-        stdout, stderr: where the real tool's words go; the process's own streams unless given.
-    """
+    """Make the package that `args` (see `add_arguments`) asks for, in paths from `cwd` on; return the exit code."""
     out, err = stdout or sys.stdout, stderr or sys.stderr
     if args.license == "?":
         print("Supported licenses:", *LICENCES, sep="\n", file=out)

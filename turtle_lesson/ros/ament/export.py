@@ -54,16 +54,10 @@ class Exported:
 
 
 def export_package(world: World, package: str | Path, to: str | Path, *, overwrite: bool = False) -> Exported:
-    """Write a package into `to`/src, and a README of the commands to build it.
+    """Write a package, given by its name or its source folder, into `to`/src, and a README of the commands to build it.
 
-    Args:
-        world: where a package of this name is looked for, unless it is below the current folder.
-        package: its name, or the folder of its source.
-        to: the workspace's folder; it is made where it is missing.
-        overwrite: whether to replace a package that lies there already.
-
-    Raises:
-        PackageError: there is no such package, or a real build would refuse it (with the build's own words).
+    A name is looked for below the current folder, then in the world. Raises PackageError where there is no such package,
+    where a real build would refuse it (in its own words), or where it lies there already, unless `overwrite`.
     """
     found = _find(world, package)
     target = Path(to).expanduser().resolve() / "src" / found.name

@@ -58,8 +58,7 @@ class PackageIndex:
     def get(self, name: str) -> Package:
         """The package of this name.
 
-        Raises:
-            PackageNotFoundError: with the real text, and with the name that was perhaps meant.
+        Raises PackageNotFoundError with the real text, and with the name that was perhaps meant.
         """
         if name in self._layers:
             return self._layers[name][-1]
@@ -76,9 +75,8 @@ class PackageIndex:
     def executable(self, package: str, executable: str) -> Target:
         """What runs as `executable` of a package.
 
-        Raises:
-            PackageNotFoundError: if there is no such package.
-            ExecutableNotFoundError: if it has no such executable, with the real text.
+        Raises PackageNotFoundError if there is no such package, and ExecutableNotFoundError if it has no such
+        executable, with the real text.
         """
         found = self.get(package)
         if executable in found.executables:
@@ -113,9 +111,8 @@ class LaunchedPackages(PackageIndex):
     def executable(self, package: str, executable: str) -> Target:
         """What runs as `executable` of a package.
 
-        Raises:
-            NotHereError: if only a robot can start it.
-            PackageNotFoundError, ExecutableNotFoundError: as otherwise.
+        Raises NotHereError if only a robot can start it, and PackageNotFoundError or ExecutableNotFoundError as
+        otherwise.
         """
         if _why_absent(package, self._layers):
             raise left_out(package if package == executable else f"{executable} of {package}", package)
@@ -210,8 +207,7 @@ def _is_python(package: Package) -> bool:
 def find_launch_file(packages: PackageIndex, package: str, file_name: str) -> Path:
     """The launch file of this name that a package has installed.
 
-    Raises:
-        PackageNotFoundError, LaunchFileNotFoundError: with the texts of `ros2 launch`, and what to try.
+    Raises PackageNotFoundError or LaunchFileNotFoundError with the texts of `ros2 launch`, and what to try.
     """
     found = packages.get(package)
     files = found.shared_files(file_name)

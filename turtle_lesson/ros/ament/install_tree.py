@@ -34,14 +34,9 @@ _INDEX = "share/ament_index/resource_index"
 
 @dataclass(frozen=True)
 class Item:
-    """One file to install.
+    """One file to install at `target`, below the package's prefix: a copy of `source` or, without one, a file with this text.
 
-    Attributes:
-        target: its place below the package's install prefix, with `/`.
-        source: the file that is copied; None where `text` is written.
-        text: the content of a file that the build makes.
-        program: whether it can be run.
-        copied: whether it is copied even by `--symlink-install`.
+    `program` says whether it can be run, `copied` whether it is copied even by `--symlink-install`.
     """
 
     target: str
@@ -53,14 +48,11 @@ class Item:
 
 @dataclass
 class Outcome:
-    """How a build went.
+    """How a build went: exit code, what is printed, how long it takes in robot time, and what is installed if it went well.
 
     Attributes:
-        code: the exit code, 0 if it went well.
         stderr: what colcon shows between `--- stderr: name` and `---`.
         stdout: what CMake or setuptools say meanwhile.
-        seconds: how long it takes, in robot time.
-        items: what is installed if it went well.
         dependencies: the packages that are needed when it runs.
         colcon_error: what colcon itself says where it does not even begin.
         left_out: the C++ programs and libraries that are not built here, and scripts that are not Python.
@@ -97,11 +89,7 @@ def with_hint(text: str, hints: Iterable[str]) -> str:
 
 
 def check_targets(items: Iterable[Item]) -> None:
-    """Nothing is installed outside of the package's own folder.
-
-    Raises:
-        BuildFailure: something would be.
-    """
+    """Nothing is installed outside of the package's own folder. Raises BuildFailure where something would be."""
     for item in items:
         place = PurePosixPath(item.target)
         if place.is_absolute() or ".." in place.parts or "\0" in item.target:
@@ -111,8 +99,7 @@ def check_targets(items: Iterable[Item]) -> None:
 def prepare(install: Path, build: Path, log: Path, layout: str = "isolated") -> None:
     """Make the three folders, marked so that colcon looks for no packages in them.
 
-    Raises:
-        ColconError: the install folder has the other layout.
+    Raises ColconError where the install folder has the other layout.
     """
     before = layout_of(install)
     if before not in {"", layout}:

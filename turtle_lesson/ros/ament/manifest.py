@@ -26,13 +26,10 @@ _RUNTIME = ("depend", "exec_depend", "build_export_depend", "buildtool_export_de
 
 @dataclass
 class Found:
-    """A package's folder.
+    """A package's folder: what its package.xml says, whose name and build type may be missing.
 
     Attributes:
-        name: what package.xml says, or the folder's name where it cannot be read.
-        path: the folder.
-        shown: the folder from the workspace's.
-        build_type: as package.xml says, empty if it says nothing.
+        shown: the folder as seen from the workspace's.
         dependencies: all packages that it names.
         root: the parsed package.xml, or None.
         xml_error: why package.xml cannot be read, empty if it can; beside a setup.py also what is refused in it.
@@ -134,8 +131,7 @@ def discover(folder: Path, base: Path) -> list[Found]:
 def in_order(packages: Iterable[Found]) -> list[Found]:
     """The packages so that each comes after those it depends on, otherwise by name.
 
-    Raises:
-        ColconError: two packages have one name, or some depend on each other in a circle.
+    Raises ColconError where two packages have one name, or some depend on each other in a circle.
     """
     waiting = sorted(packages, key=lambda found: found.name)
     places: dict[str, list[str]] = {}

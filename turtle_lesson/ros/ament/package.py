@@ -27,15 +27,13 @@ class Package:
     """One package that can be found.
 
     Attributes:
-        name: its name.
         share: the folder in which its launch files and other data are found.
         executables: what `ros2 run` and `Node(executable=…)` find, by name.
         interfaces: its definitions relative to `share`, such as `msg/TurtleStatus.msg`.
         source: the folder in which it was written, or None.
-        prefix: the folder that it is installed in; None for one that is used as it lies there.
-        installed: for a package used as it lies there, what would be in its share folder after a build, by
-            the path that it would have there; None means everything under `share`.
-        modules: for an ament_python package used as it lies there, the folders in which its modules lie.
+        prefix: the folder that it is installed in; None for one that is used as it lies there. For such a one:
+        installed: what its share folder would contain after a build, by path; None for everything under `share`.
+        modules: the folders in which the modules of an ament_python package lie.
     """
 
     name: str
@@ -62,12 +60,9 @@ class Package:
 
 @dataclass(frozen=True)
 class PythonProgram:
-    """What runs such a program.
+    """What runs a program: a file, read at each start, with the folders of its modules.
 
-    Attributes:
-        path: the file, which is read at each start; one that does not exist stands for `text`.
-        folders: the folders of its modules.
-        text: the code of a program that no file holds, as an entry point used without a build.
+    A file that does not exist stands for `text`, such as an entry point that is used without a build.
     """
 
     path: Path
@@ -116,14 +111,7 @@ SHARE = "/opt/ros/humble/share"
 
 
 class PackageError(ValueError):
-    """A package cannot be read as it lies there.
-
-    Attributes:
-        reason: what is wrong.
-        file: the file that says so, or None.
-        line: the line in it, counted from 1, or None.
-        hint: what to try, or an empty string.
-    """
+    """A package cannot be read as it lies there, for a reason, in a line (from 1) of a file; `hint` says what to try."""
 
     def __init__(self, reason: str, file: Path | None = None, line: int | None = None, hint: str = "") -> None:
         super().__init__(reason, file, line, hint)
@@ -207,13 +195,7 @@ class LaunchFileNotFoundError(_NotFoundError):
 
 
 class NotHereError(NotImplementedError):
-    """A robot would start this, and the simulation cannot. A launch names it, and goes on without it.
-
-    Attributes:
-        what: what it is.
-        why: why it cannot be started.
-        hint: what to do instead, or an empty string.
-    """
+    """A robot would start this, and the simulation cannot. A launch names it, and goes on without it."""
 
     def __init__(self, what: str, why: str, hint: str = "") -> None:
         super().__init__(f"{what} cannot be started: {why}")

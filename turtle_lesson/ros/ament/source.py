@@ -156,8 +156,7 @@ def remove_all(world: World) -> None:
 def read_source_package(folder: Path | str) -> Package:
     """Take a package as it lies in its source folder, as if it had just been built and sourced.
 
-    Raises:
-        PackageError: what a build would refuse, in its own words.
+    Raises PackageError, in a build's own words, for what it would refuse.
     """
     folder = Path(folder).resolve()
     file = folder / "package.xml"
@@ -191,8 +190,7 @@ def read_source_package(folder: Path | str) -> Package:
 def checked_build(found: Found, environment: Environment) -> Outcome:
     """What a build makes of a package.
 
-    Raises:
-        PackageError: a real build would refuse the package, with the build's own words.
+    Raises PackageError where a real build would refuse the package, with the build's own words.
     """
     if not found.buildable:
         hint = build_type_hint(found.build_type)

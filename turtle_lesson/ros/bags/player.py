@@ -35,12 +35,10 @@ class Playback:
 
     Attributes:
         rate: how many times as fast as recorded.
-        start_offset: where in the bag to begin (s).
+        start_offset, duration: where in the bag to begin, and how much of it to play (s; None for all).
         topics: which to play; none named plays all.
         remaps: other names for some topics.
-        loop: again and again.
         delay: how long to wait before each time (s of robot time).
-        duration: how much of the bag to play (s), None for all.
         clock: how often a second of robot time to say on /clock what time it is in the bag, 0 for never.
     """
 

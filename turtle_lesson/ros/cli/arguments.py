@@ -23,12 +23,7 @@ WIDTH = 78
 
 
 class Stop(Exception):
-    """The words ask for no verb: a help text or a usage error is to be printed instead.
-
-    Attributes:
-        text: what to print, without the last line end.
-        code: the exit code: 0 for help, which goes to stdout, 2 for a mistake, which goes to stderr.
-    """
+    """The words ask for no verb: a text is to be printed instead, help (code 0) or, on stderr, a usage error (code 2)."""
 
     def __init__(self, text: str, code: int) -> None:
         super().__init__(text, code)

@@ -119,9 +119,7 @@ _STRING_ENDS = {quote: re.compile(rf"(?:\\.|[^\\])*?{quote}", re.DOTALL) for quo
 def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
     """Replace the commands among a cell's lines; the number of lines stays as it is.
 
-    Args:
-        lines: the cell's lines, with their line ends.
-        variables: names that have a value, and so are Python wherever they could be.
+    `variables` are names that have a value, and so are Python wherever they could be.
     """
     cell = _Cell(lines, variables)
     translated: list[str] = []

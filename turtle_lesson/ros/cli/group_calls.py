@@ -57,13 +57,9 @@ ACTIONS = ("/turtle1/rotate_absolute", "turtlesim/action/RotateAbsolute")
 
 
 def _not_offered(what: str, name: str, own: str, known: dict[str, list[str]]) -> CommandError:
-    """The error for a service or an action of a type that no node has offered in time. The real tools wait forever.
+    """The error for a service or action (`what`) that no node has offered in time with its `own` type, among those `known`.
 
-    Args:
-        what: "service" or "action".
-        name: the one that was named.
-        own: its type.
-        known: those that are there, with their types.
+    The real tools wait forever.
     """
     waited = f"Gave up after {PATIENCE:g} s of robot time"
     others = [each for each in known.get(name, []) if each != own]
@@ -81,15 +77,12 @@ def _outcome(
     until: float,
     too_late: Callable[[], Exception],
 ) -> Any:
-    """What a future brings; until then, look whether the server is still there.
+    """What a future brings; meanwhile, look whether the server is still there.
 
     Args:
-        node: the node to spin.
-        future: what is waited for.
         doing: what fails if the future has an exception.
         server: the name of the service or action, and whether it is there.
-        until: when to give up, in s of robot time.
-        too_late: gives the exception to raise then.
+        until: when to give up, in s of robot time, and raise what `too_late` gives.
     """
     name, is_there = server
     while not spin_for(node, min(LOOK_AGAIN, until - now()), future):

@@ -52,13 +52,7 @@ class Jobs:
 
 @dataclass
 class Job:
-    """One command that goes on.
-
-    Attributes:
-        words: the command, as it was typed.
-        what: the process that runs, or the handle of a launch.
-        number: its number, as in `%1`.
-    """
+    """A command that goes on, as it was typed: a process or a launch, with its number, as in `%1`."""
 
     words: str
     what: Process | LaunchHandle

@@ -41,16 +41,8 @@ def run(
 ) -> int:
     """Run one command, such as `["ros2", "topic", "list"]`, and return its exit code.
 
-    Args:
-        world: where it runs.
-        words: the program's name and its arguments.
-        stdin: what a program of `ros2 run` reads as its input; the keyboard if not given.
-        stdout, stderr: where it prints to; the running cell if not given.
-        cwd: the folder that it works in; the current one if not given.
-        background: whether to return at once and let it go on while the world runs (`&`).
-
-    Raises:
-        KeyboardInterrupt: if the user stops it.
+    It reads and prints in the running cell, unless told otherwise. With `background` (`&`) it goes on while the world runs, and
+    0 is returned at once. Raises KeyboardInterrupt if the user stops it.
     """
     out_to: Any = sys.stdout if stdout is None else stdout
     error_to: Any = Errors(cell_streams()[1] if stderr is None else stderr)
@@ -111,8 +103,7 @@ def run_here(words: Sequence[str]) -> int:
 def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
     """The commands of a shell's text, each with the sign before it.
 
-    Raises:
-        UnknownCommand: if there is none, or one that uses more of a shell than `&&`, `||` and `;`.
+    Raises UnknownCommand if there is none, or one that uses more of a shell than `&&`, `||` and `;`.
     """
     try:
         plan = list(pipelines(list(tokens(text))))
@@ -154,13 +145,9 @@ class Call:
 
 @dataclass(frozen=True)
 class Group:
-    """A word that is followed by others: one of the commands, or `ros2` itself.
+    """A word that is followed by others: one of the commands, whose verbs are in a module, or `ros2` itself.
 
-    Attributes:
-        prog: all the words up to it.
-        help: what it is for.
-        module: the module of its verbs; none for `ros2` itself.
-        flag: an option of its own, and what that does.
+    `prog` are all the words up to it, `flag` is an option of its own and what that does.
     """
 
     prog: str
@@ -235,11 +222,7 @@ class Group:
 
 
 def parse(words: Sequence[str]) -> Call:
-    """Find what `ros2 <words>` asks for.
-
-    Raises:
-        Stop: if it asks for help, or is not understood.
-    """
+    """Find what `ros2 <words>` asks for. Raises Stop if it asks for help, or is not understood."""
     found: Group | Verb = ROS2
     rest, given = list(words), {}
     while isinstance(found, Group):

@@ -70,11 +70,7 @@ Token = Word | Operator | HereText
 
 
 def tokens(text: str) -> list[Token]:
-    """Take a script apart.
-
-    Raises:
-        UnfinishedError: if a quote is never closed.
-    """
+    """Take a script apart. Raises UnfinishedError if a quote is never closed."""
     return _scan(text)[0]
 
 
@@ -84,8 +80,7 @@ def command_end(text: str, at: int = 0) -> int:
     It goes on in the next line while a quote or a `<<END` is open, and behind a backslash, `&&`, `||` or `|`; where such
     a thing is the last one, the command takes all that is left.
 
-    Raises:
-        UnfinishedError: if a quote or a `<<END` is never closed.
+    Raises UnfinishedError if a quote or a `<<END` is never closed.
     """
     try:
         return len(text) - _scan(text, at, one_command=True)[1]

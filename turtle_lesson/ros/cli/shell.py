@@ -87,8 +87,7 @@ class Shell:
     def run(self, script: str) -> int:
         """Run a script of one line or several; a failing command prints and does not raise.
 
-        Raises:
-            CommandInterrupted: if the user stops a command.
+        Raises CommandInterrupted if the user stops a command.
         """
         return self._script(script, *cell_streams())
 

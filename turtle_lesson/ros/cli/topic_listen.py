@@ -259,12 +259,7 @@ SECOND = 1_000_000_000
 
 
 class Measure:
-    """Looks at what is heard on a topic, and prints what comes of it.
-
-    Attributes:
-        raw: whether it hears bytes, not messages.
-        begin: what is printed before the first message, with the topic in it.
-    """
+    """Looks at what is heard on a topic, as messages or `raw` bytes, and prints what comes of it; `begin` first."""
 
     raw = False
     begin = ""

@@ -109,8 +109,7 @@ def read_yaml(text: str, what: str = "The passed value") -> Any:
 def populate(message: Any, values: Any, *, is_goal: bool = False) -> list[Callable[[Any], None]]:
     """Set the fields of a message, a request or a goal to values as YAML gives them, or raise CommandError with a sentence.
 
-    Returns:
-        Functions that want the time of sending: they set what was typed as `header: auto` or `stamp: now`; none for a goal.
+    Returns functions that want the time of sending, for what was typed as `header: auto` or `stamp: now`; none for a goal.
     """
     from rosidl_runtime_py.set_message import set_message_fields
 
@@ -158,13 +157,11 @@ def types_of(kind: str, name: str, known: dict[str, list[str]]) -> list[str]:
 def add_verbs(
     kind: str, folder: str, examples: tuple[str, str], known: Known, *common: Argument, of_list: str = ""
 ) -> None:
-    """Add the verbs `type`, `find` and perhaps `list` of topics, services or actions.
+    """Add the verbs `type`, `find` and perhaps `list` of topics, services or actions (`kind`).
 
     Args:
-        kind: "topic", "service" or "action".
         folder: the kind of their types: "msg", "srv" or "action".
         examples: the name of one, and of a type.
-        known: finds those that are there.
         common: arguments that `type` and `find` have beside their own.
         of_list: the help of `list`; without one it is not added.
     """

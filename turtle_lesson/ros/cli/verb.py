@@ -60,7 +60,6 @@ class Verb:
 
     Attributes:
         words: the words by which it is called, such as "topic list".
-        help: one line on what it does.
         arguments: what adds its arguments to a parser, in the real tool's order.
         work: does it, and returns an exit code or None.
         in_cell: whether it needs neither robot time nor a node, and so runs in the cell itself, not as a process.

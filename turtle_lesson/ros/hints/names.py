@@ -244,11 +244,9 @@ def module_left_out(name: str) -> str:
 
 
 def name_left_out(owner: object, name: str) -> str:
-    """What to do without a name that a real rclpy's module or object has; an empty text for any other name.
+    """What to do without an attribute that a real rclpy's module or object has; an empty text for any other name.
 
-    Args:
-        owner: the object or class that was asked for the attribute, or the name of the module.
-        name: the attribute.
+    `owner` is the object or class that was asked, or the name of the module.
     """
     kinds = owner.__mro__ if isinstance(owner, type) else type(owner).__mro__
     homes = [owner] if isinstance(owner, str) else [kind.__module__ for kind in kinds]

@@ -32,9 +32,8 @@ _names: WeakKeyDictionary[type, str] = WeakKeyDictionary()
 def serialize(message: Any) -> bytes:
     """The CDR bytes of a message, or of a service's request or response.
 
-    Raises:
-        TypeError: the object is no message of a generated class.
-        ValueError: the message holds what CDR cannot carry, such as half a character or a list that is too long.
+    Raises TypeError where the object is no message of a generated class, and ValueError where the message holds what
+    CDR cannot carry, such as half a character or a list that is too long.
     """
     if isinstance(message, type):
         raise TypeError(f"expected a message, got the class {message.__name__}")
@@ -46,15 +45,10 @@ def serialize(message: Any) -> bytes:
 
 
 def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any:
-    """The message that CDR bytes hold.
+    """The message of a class that CDR bytes hold, little or big endian, with their 4-byte header.
 
-    Args:
-        data: bytes with their 4-byte header, little or big endian.
-        message_class: class of the message, e.g. `Twist` or `NavigateTo.Request`.
-
-    Raises:
-        TypeError: the class is none of a message.
-        ValueError: the bytes are cut short, too long or no such message.
+    Raises TypeError where the class is none of a message, and ValueError where the bytes are cut short, too long or no such
+    message.
     """
     name = _name(message_class)
     try:

@@ -305,13 +305,7 @@ _MEMBER = re.compile(r"\S+\s+(\w+)[^#]*$")
 
 
 def with_comments(directory: Path, interface: str, text: str) -> str:
-    """The text of a definition with the comments that the package in a folder has for it, if any.
-
-    Args:
-        directory: folder of the package: that of `msg/`, `srv/` and `action/`.
-        interface: such as `msg/Twist`.
-        text: what the definition's file says.
-    """
+    """The text of a definition, such as `msg/Twist`, with the comments that the package in a folder has for it, if any."""
     file = directory / "comments.txt"
     found = file.read_text(encoding="utf-8") if file.is_file() else ""
     section = f"\n{found}".partition(f"\n[{interface}]\n")[2].partition("\n[")[0].strip()

@@ -16,12 +16,7 @@ plain_text = str.__str__  # a plain str, even of an instance of a subclass
 
 @dataclass(frozen=True, slots=True)
 class TypeSupport:
-    """Stands where ROS keeps pointers to its C code: tells that a class is an interface, and of which kind.
-
-    Attributes:
-        kind: `msg`, `srv` or `action`.
-        name: full name such as `geometry_msgs/msg/Twist`.
-    """
+    """Stands where ROS keeps pointers to its C code: says that a class is an interface, of a kind (`msg`) and full name."""
 
     kind: str
     name: str

@@ -21,8 +21,7 @@ class FieldType:
     Attributes:
         base: primitive type, or the message's name without its package.
         package: package of that message; None for a primitive type.
-        array: `none`, `fixed` (exactly `size`), `bounded` (up to `size`) or `unbounded`.
-        size: number of elements where the type says one.
+        size: the number of elements of a `fixed` array, the largest one of a `bounded` one.
         string_bound: largest number of characters, for a bounded string.
         folder: `msg`, except where an action's own messages hold its goal, result or feedback.
     """
@@ -188,17 +187,13 @@ def derived_parts(action: ActionDefinition) -> tuple[MessageDefinition, ...]:
 
 
 class InvalidDefinition(ValueError):
-    """An interface definition that ROS 2 refuses.
+    """An interface definition that ROS 2 refuses, for a reason in its own words; `hint` says what to try.
 
     Attributes:
-        reason: ROS's own words.
         ros_error: name of the exception that ROS raises (`InvalidResourceName`, `NameError`, ...).
         printed: the line that ROS writes to standard error before it raises, or None.
         interface: full name such as `robot_controller/msg/TurtleStatus`.
-        file: path of the file as text, or None where the text came from no file.
-        line: line number in that file, counted from 1, or None where no single line is to blame.
-        line_text: that line, without its comment.
-        hint: what to try, or an empty string.
+        file, line, line_text: where it is, counted from 1, without the line's comment; None where nothing single is to blame.
     """
 
     ros_error = "ValueError"

@@ -58,8 +58,6 @@ class Package:
     """One interface package: a folder with `msg/`, `srv/` and `action/`.
 
     Attributes:
-        name: the package's name.
-        directory: folder that holds the definition files.
         files: the files that count, relative to the folder, as CMakeLists.txt names them; None for all.
         modules: those that were generated, by names such as `msg/Twist`.
     """
@@ -130,12 +128,9 @@ class Registry:
         self._lock = RLock()
 
     def add(self, package: str, directory: str | Path, files: Iterable[str] | None = None) -> None:
-        """Make a package known, in place of an earlier one of its name.
+        """Make a package known, in place of an earlier one of its name; InvalidResourceName where ROS would refuse that.
 
-        Args:
-            package: name of the package; InvalidResourceName where ROS would refuse it.
-            directory: folder that holds `msg/`, `srv/` and `action/`.
-            files: relative paths such as `msg/TurtleStatus.msg` to limit it to; None for all files there.
+        `files` limits it to relative paths such as `msg/TurtleStatus.msg`; None stands for all files in the folder.
         """
         names.check_package(package)
         with self._lock:
@@ -185,14 +180,10 @@ class Registry:
         return self._find(package, interface).definition(interface)
 
     def get(self, name: str) -> Any:
-        """The class of an interface.
+        """The class of `geometry_msgs/msg/Twist`, `geometry_msgs/Twist`, or of a part such as `turtlesim/srv/Spawn_Request`.
 
-        Args:
-            name: `geometry_msgs/msg/Twist`, `geometry_msgs/Twist`, or a part: `turtlesim/srv/Spawn_Request`.
-
-        Raises:
-            LookupError: there is no such package or interface.
-            InvalidDefinition: ROS refuses its definition, or that of a field's type.
+        Raises LookupError where there is no such package or interface, and InvalidDefinition where ROS refuses its
+        definition, or that of a field's type.
         """
         found = self._classes.get(name)
         if found is None:

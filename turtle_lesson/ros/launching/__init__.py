@@ -36,8 +36,7 @@ _SITE = Path(__file__).resolve().parents[1] / "site"
 def __getattr__(name: str) -> Any:
     """What needs the package `launch` is imported when it is first asked for.
 
-    Raises:
-        LaunchError: if another package named launch or launch_ros hides the simulation's.
+    Raises LaunchError if another package named launch or launch_ros hides the simulation's.
     """
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -58,15 +58,10 @@ class ForeignCommand(UnknownCommand, NotHereError):
 
 
 def program(words: Sequence[str], *, shell: bool = False) -> Program:
-    """What these words run.
+    """What the words of a command run; a `shell` takes them apart itself.
 
-    Args:
-        words: a command and its arguments, or, for a shell, pieces of a script.
-        shell: whether a shell takes them apart.
-
-    Raises:
-        UnknownCommand: if the simulation does not have this command.
-        PackageNotFoundError, ExecutableNotFoundError: if `ros2 run` names what is not there.
+    Raises UnknownCommand if the simulation does not have this command, and PackageNotFoundError or
+    ExecutableNotFoundError if `ros2 run` names what is not there.
     """
     shown = " ".join(words)
     name = PurePath(words[0]).name if words[0] else ""
@@ -142,11 +137,7 @@ def _ros2_run(words: list[str], shown: str) -> Program:
 
 
 def _main(words: list[str]) -> Main:
-    """The function that a command is.
-
-    Raises:
-        UnknownCommand: if the simulation does not have it.
-    """
+    """The function that a command is. Raises UnknownCommand if the simulation does not have it."""
     name = PurePath(words[0]).name
     if name == "ros2":
         if words[1:2] == ["launch"]:
@@ -193,9 +184,8 @@ _SMALL: dict[str, Callable[[Sequence[str]], Any]] = {
 def output_of(text: str) -> str:
     """What a command prints.
 
-    Raises:
-        CommandFailure: if it fails, or the simulation does not have it.
-        NotHereError: if it needs a Python package that is not installed.
+    Raises CommandFailure if it fails, or the simulation does not have it, and NotHereError if it needs a Python package
+    that is not installed.
     """
     try:
         words = shlex.split(text)
@@ -257,8 +247,7 @@ _OF_THE_WORLD = re.compile(r"(?:^|[\s;&|('\"])(?:ros2|colcon|killall|pkill)\b")
 def plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
     """The program's file or function, by which the world runs a command, and its arguments; None if the computer is to.
 
-    Raises:
-        NotImplementedError: for a command that the computer could not run, and the world cannot.
+    Raises NotImplementedError for a command that the computer could not run, and the world cannot.
     """
     one = isinstance(args, (str, bytes, os.PathLike))
     words = [os.fsdecode(args)] if one else [os.fsdecode(word) for word in args][: 1 if shell else None]

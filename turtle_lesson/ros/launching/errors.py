@@ -22,14 +22,7 @@ Place = tuple[str, int]
 
 
 class LaunchError(Exception):
-    """A launch file or description could not be carried out.
-
-    Attributes:
-        reason: the real tool's own words.
-        file: the launch file to look at, or None.
-        line: the line in it, counted from 1, or None.
-        hint: what to try, or an empty text.
-    """
+    """A launch file or description could not be carried out, for a reason in the real tool's words; `hint` says what to try."""
 
     def __init__(self, reason: str, place: Place | None = None, hint: str = "") -> None:
         super().__init__(reason, place, hint)
@@ -61,8 +54,7 @@ class LaunchError(Exception):
 def find_launch_file(world: World, package: str, file_name: str) -> Path:
     """The launch file of this name that a package has installed.
 
-    Raises:
-        LaunchError: with the words of `ros2 launch`, and what to try.
+    Raises LaunchError with the words of `ros2 launch`, and what to try.
     """
     try:
         return index.find_launch_file(world.packages, package, file_name)
@@ -109,12 +101,9 @@ def _causes(error: BaseException | None) -> list[BaseException]:
 
 
 def as_launch_error(error: BaseException, written_at: Place | None, given: Iterable[str]) -> LaunchError:
-    """The error as a learner should read it.
+    """The error as a learner should read it, with a hint of its own or of an error that it came from.
 
-    Args:
-        error: what went wrong; the errors that it came from are looked at for a hint, too.
-        written_at: where the action stands that went wrong.
-        given: the names of the launch arguments that were given.
+    `written_at` is where the action stands that went wrong, `given` are the names of the launch arguments that were given.
     """
     if isinstance(error, LaunchError):
         return error

@@ -107,8 +107,7 @@ class LaunchService:
     def begin(self, entity: LaunchDescriptionEntity) -> None:
         """Walk through a description and start its processes.
 
-        Raises:
-            LaunchError: if something is wrong with it. If it is found while walking, nothing was started.
+        Raises LaunchError if something is wrong with it. If it is found while walking, nothing was started.
         """
         if not self._said_level:
             self.say("INFO", "launch", "Default logging verbosity is set to INFO")
@@ -191,8 +190,7 @@ class LaunchService:
     def visit(self, entity: LaunchDescriptionEntity) -> None:
         """Carry out an entity and all that it gives, in order; what only a robot can start is named and left out.
 
-        Raises:
-            LaunchError: with the place in the launch file.
+        Raises LaunchError with the place in the launch file.
         """
         try:
             for inner in entity.visit(self.context) or []:
@@ -280,16 +278,9 @@ def launch_file(
     *,
     show_all_output: bool = False,
 ) -> LaunchHandle:
-    """Carry out a launch file.
+    """Carry out a launch file, with its arguments as `name:=value` on a command line; values become text.
 
-    Args:
-        world: where the nodes are to run.
-        path: the file.
-        arguments: its launch arguments, as `name:=value` on a command line; values become text.
-        show_all_output: whether all that its processes print is shown (`ros2 launch -a`).
-
-    Raises:
-        LaunchError: if the file cannot be carried out; nothing was started then.
+    Raises LaunchError if the file cannot be carried out; nothing was started then.
     """
     source = AnyLaunchDescriptionSource(_existing(Path(path)))
     return _begin(world, source, arguments, Path(path).name, show_all_output)
@@ -303,11 +294,7 @@ def launch_description(
 
 
 def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgument]:
-    """The arguments that a launch file takes.
-
-    Raises:
-        LaunchError: if the file cannot be loaded.
-    """
+    """The arguments that a launch file takes. Raises LaunchError if the file cannot be loaded."""
     source = AnyLaunchDescriptionSource(_existing(Path(path)))
     try:
         with seeing(LaunchedPackages(world.packages)):
@@ -317,11 +304,7 @@ def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgume
 
 
 def show_arguments(world: World, path: Path | str) -> str:
-    """What `ros2 launch … --show-args` prints.
-
-    Raises:
-        LaunchError: if the file cannot be loaded.
-    """
+    """What `ros2 launch … --show-args` prints. Raises LaunchError if the file cannot be loaded."""
     parts = ["Arguments (pass arguments as '<name>:=<value>'):"]
     for argument in launch_arguments(world, path):
         part = f"    '{argument.name}':\n{textwrap.indent(argument.description, '        ')}"

@@ -93,13 +93,9 @@ def folder() -> Path:
 
 
 def check(path: str | os.PathLike[str], *, follow: bool = True, removes: bool = False) -> Path:
-    """The file or folder that a path leads to, if a command may change it.
+    """The file or folder that a path leads to, if a command may write, make or remove it.
 
-    Args:
-        path: what is to be written, made or removed.
-        follow: whether the change goes through a link at the path's end, and not to the link itself.
-        removes: whether it is deleted or moved away, which is never done through a link.
-
+    Without `follow` the change is one of the link at the path's end, as it always is where something `removes` it.
     Raises PermissionError with a sentence for the learner if the command may not, OSError for a name that no file can have.
     """
     path = Path(path)

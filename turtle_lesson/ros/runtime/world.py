@@ -217,8 +217,7 @@ class Waiter:
     def wait(self, process: Process) -> str:
         """Let the world run until the process has ended; it is interrupted if it can never end. Returns why, or nothing.
 
-        Raises:
-            KeyboardInterrupt: if the user stops it; the process has been interrupted then, too.
+        Raises KeyboardInterrupt if the user stops it; the process has been interrupted then, too.
         """
         rate = live_rate(self._world)
         try:

@@ -316,10 +316,7 @@ Callback = Callable[[Any], object]
 class Listener(threading.Thread):
     """A thread that calls functions as keys are pressed and let go of, until one of them returns False.
 
-    Args:
-        on_press: called with each key that is pressed: a `KeyCode`, or a `Key` for those with a name.
-        on_release: called with each key that is let go of.
-        options: such as `suppress`; they have no effect here.
+    They get a `KeyCode`, or a `Key` for those with a name. Options such as `suppress` have no effect here.
     """
 
     def __init__(

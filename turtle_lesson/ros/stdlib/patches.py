@@ -282,8 +282,7 @@ PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
 def _check_python(version: tuple[int, int] = sys.version_info[:2]) -> None:
     """On a Python that is newer than those that were tried: go on and say so, unless a private name is gone.
 
-    Raises:
-        NotImplementedError: if one is.
+    Raises NotImplementedError if one is.
     """
     if version <= PROVED_ON[1]:
         return
@@ -309,8 +308,7 @@ _stages: set[Stage] = set()
 def install(stage: Stage = Stage.WORLD) -> None:
     """Put in all rows up to a stage; what is in stays as it is.
 
-    Raises:
-        NotImplementedError: on a Python that lacks what simulated threads need.
+    Raises NotImplementedError on a Python that lacks what simulated threads need.
     """
     if stage in _stages:
         return
@@ -332,8 +330,7 @@ def install(stage: Stage = Stage.WORLD) -> None:
 def uninstall() -> None:
     """Put back all originals; the next world installs ours again. `import turtle_lesson` adds to `sys.path`, which stays.
 
-    Raises:
-        RuntimeError: while a world is open.
+    Raises RuntimeError while a world is open.
     """
     notebook = ownership.Notebook.process()
     if notebook is not None and not notebook.simulation.closed:

@@ -214,8 +214,7 @@ _NO_WINDOW = "{} opens windows, and a program here has no screen for them: lesso
 def no_window(toolkit: str) -> None:
     """Refuse the import of a window toolkit by a program; one that is not installed is left to Python's own words.
 
-    Raises:
-        ImportError: if it is installed.
+    Raises ImportError if it is installed.
     """
     if find_spec(toolkit) is not None:
         raise ImportError(_NO_WINDOW.format(toolkit), name=toolkit)

@@ -31,7 +31,6 @@ class ProgramInput(TextIOBase):
     """The standard input of a program.
 
     Attributes:
-        keys: the keys that were pressed for it.
         raw: whether it reads keys instead of lines.
         signals: whether Ctrl-C interrupts the program; else it is a key like any other.
         returns: whether the enter key gives "\\r" instead of "\\n".
@@ -57,11 +56,7 @@ class ProgramInput(TextIOBase):
         self._given = 0
 
     def ask(self, prompt: object = "", /) -> str:
-        """What `input(prompt)` gives: the next line.
-
-        Raises:
-            EOFError: if there is none.
-        """
+        """What `input(prompt)` gives: the next line. Raises EOFError if there is none."""
         return self._next(str(prompt))
 
     def _next(self, prompt: str) -> str:

@@ -17,9 +17,7 @@ def get_packages_with_prefixes() -> dict[str, str]:
 def get_package_prefix(package_name: str) -> str:
     """The folder that a package is installed in; for one that is used as it lies there, that folder.
 
-    Raises:
-        PackageNotFoundError: if there is no such package.
-        ValueError: if the name cannot be a package's.
+    Raises PackageNotFoundError if there is no such package, and ValueError if the name cannot be a package's.
     """
     if not re.fullmatch(r"[A-Za-z]\w*", package_name, re.ASCII):
         raise ValueError(f"'{package_name}' is not a valid package name")
@@ -30,9 +28,7 @@ def get_package_prefix(package_name: str) -> str:
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
     """The folder with a package's launch files and other data.
 
-    Raises:
-        PackageNotFoundError: if there is no such package.
-        ValueError: if the name cannot be a package's.
+    Raises PackageNotFoundError if there is no such package, and ValueError if the name cannot be a package's.
     """
     get_package_prefix(package_name)
     return str(current_packages().get(package_name).share)

@@ -61,8 +61,7 @@ class CvBridge:
     def encoding_to_cvtype2(self, encoding: str) -> int:
         """The number of OpenCV's type for an encoding, such as 16 for "bgr8".
 
-        Raises:
-            CvBridgeError: if there is no such encoding.
+        Raises CvBridgeError if there is no such encoding.
         """
         if found := _COLOURS.fullmatch(encoding):
             depth, channels = f"{found[3]}U", 1 if found[1] else 4 if found[2] else 3
@@ -83,8 +82,7 @@ class CvBridge:
     def imgmsg_to_cv2(self, img_msg: Image, desired_encoding: str = "passthrough") -> Array:
         """The image of a message, as it is encoded there or in another encoding.
 
-        Raises:
-            CvBridgeError: if there is no such encoding, or no way from one to the other.
+        Raises CvBridgeError if there is no such encoding, or no way from one to the other.
         """
         kind, channels = self.encoding_to_dtype_with_channels(img_msg.encoding)
         dtype = np.dtype(kind).newbyteorder(">" if img_msg.is_bigendian else "<")
@@ -98,9 +96,7 @@ class CvBridge:
     def cv2_to_imgmsg(self, cvim: Array, encoding: str = "passthrough", header: Any = None) -> Image:
         """The message for an image, which must be encoded as `encoding` says; "passthrough" names its type only.
 
-        Raises:
-            TypeError: if the image is no array.
-            CvBridgeError: if the array's type cannot be that of the encoding.
+        Raises TypeError if the image is no array, and CvBridgeError if the array's type cannot be that of the encoding.
         """
         _check_array(cvim)
         height, width, *rest = cvim.shape
@@ -142,11 +138,7 @@ class CvBridge:
         return _with_depth(image, np.dtype(kind))
 
     def compressed_imgmsg_to_cv2(self, cmprs_img_msg: CompressedImage, desired_encoding: str = "passthrough") -> Array:
-        """The image of a compressed message.
-
-        Raises:
-            ImportError: if OpenCV is not installed.
-        """
+        """The image of a compressed message. Raises ImportError if OpenCV is not installed."""
         cv2 = _opencv()
         image: Array = cv2.imdecode(np.frombuffer(cmprs_img_msg.data, np.uint8), cv2.IMREAD_UNCHANGED)
         return image if desired_encoding == "passthrough" else self._convert(image, "bgr8", desired_encoding)
@@ -154,9 +146,7 @@ class CvBridge:
     def cv2_to_compressed_imgmsg(self, cvim: Array, dst_format: str = "jpg") -> CompressedImage:
         """The compressed message for an image.
 
-        Raises:
-            TypeError: if the image is no array.
-            ImportError: if OpenCV is not installed.
+        Raises TypeError if the image is no array, and ImportError if OpenCV is not installed.
         """
         _check_array(cvim)
         data = _opencv().imencode(f".{dst_format}", cvim)[1]

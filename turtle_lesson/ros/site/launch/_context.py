@@ -100,12 +100,7 @@ class Locals:
 
 
 class LaunchContext:
-    """The state of one launch.
-
-    Attributes:
-        launch_configurations: arguments that were given or have a default, and what was set.
-        environment: the environment variables as this launch sees them; the kernel's own stay as they are.
-    """
+    """The state of one launch: its configurations, and the environment variables as it sees them."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
         self.argv = list(argv or [])

@@ -138,8 +138,7 @@ class Action(LaunchDescriptionEntity):
     def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type, dict[str, Any]]:
         """The class and its arguments, without those in `ignore`, for a tag of an XML or YAML file.
 
-        Raises:
-            RuntimeError: if it has both `if` and `unless`; and whatever is wrong with its attributes.
+        Raises RuntimeError if it has both `if` and `unless`; and whatever is wrong with its attributes.
         """
         from .conditions import IfCondition, UnlessCondition
 
@@ -187,12 +186,7 @@ class Action(LaunchDescriptionEntity):
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """What a launch file's `generate_launch_description()` returns.
-
-    Attributes:
-        entities: its entities, in order.
-        deprecated_reason: why it should not be used any more, or None.
-    """
+    """What a launch file's `generate_launch_description()` returns: entities, in order."""
 
     def __init__(
         self,

@@ -19,10 +19,8 @@ def complete_package(package: str, modules: Mapping[str, str] = MappingProxyType
     Each public class lies in a module of its own, too: `launch.actions.TimerAction` in `launch.actions.timer_action`. It has
     that name as its `__module__`, as on a robot. A public name that is not here raises an ImportError that says so.
 
-    Args:
-        package: the package; all its files have been imported. Where it has a `modules.txt`, that lists further modules, too,
-            and names that the real one has, each with what to do without it.
-        modules: further modules of the real package, and the names in each, parted by spaces.
+    All files of the package have been imported. Its further modules are in its `modules.txt`, with the names that the real
+    one has and what to do without them, or in `modules`, with the names in each, parted by spaces.
     """
     file = Path(str(sys.modules[package].__file__)).with_name("modules.txt")
     here, _, not_here = (

@@ -37,8 +37,7 @@ VALID_FALSE_EXPRESSIONS = ["false", "0"]
 def evaluate_condition_expression(context: LaunchContext, expression: Iterable[Substitution]) -> bool:
     """True for `true` and `1`, False for `false` and `0`, however they are capitalised.
 
-    Raises:
-        InvalidConditionExpressionError: for any other text.
+    Raises InvalidConditionExpressionError for any other text.
     """
     pieces = list(expression)
     text = perform_substitutions(context, pieces).strip().lower()

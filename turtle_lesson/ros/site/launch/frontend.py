@@ -73,12 +73,8 @@ MEANT = {
 class Entity:
     """Base of `launch_xml.Entity` and `launch_yaml.Entity`, which say how their text is read.
 
-    What is asked for (`get_attr`, `children`) is remembered, so that what nobody asks for can be refused.
-
-    Attributes:
-        type_name: what it is, such as `node`.
-        parent: the entity around it, if it knows.
-        place: the file and line where it is written, if that is known.
+    What is asked for (`get_attr`, `children`) is remembered, so that what nobody asks for can be refused. `place` is the file
+    and line where it is written, if that is known.
     """
 
     def __init__(
@@ -111,11 +107,7 @@ class Entity:
         raise NotImplementedError
 
     def assert_entity_completely_parsed(self) -> None:
-        """Check that everything in it was asked for.
-
-        Raises:
-            ValueError: naming what nobody knows.
-        """
+        """Check that everything in it was asked for. Raises ValueError naming what nobody knows."""
         for kind, given in self._given().items():
             if left := set(given) - self._read[kind]:
                 raise self._unexpected(kind, left, self._asked[kind])
@@ -123,15 +115,8 @@ class Entity:
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """An attribute's value, or the nested entities of that name if `data_type` is `List[Entity]`.
 
-        Args:
-            name: its name.
-            data_type: bool, int, float, str, a list of one of these, List[Entity], or None for YAML's rules.
-            optional: whether it may be absent; it is None then.
-            can_be_str: whether text, which may have substitutions in it, is as good as the type.
-
-        Raises:
-            AttributeError: if it is absent.
-            TypeError: if it is of another type.
+        The type is bool, int, float, str, a list of one of these, or None for YAML's rules; with `can_be_str`, text, which
+        may have substitutions in it, is as good. Raises AttributeError if it is absent and not optional, TypeError for another type.
         """
         is_nested = check_is_list_entity(data_type)
         kind, given = list(self._given().items())[0 if is_nested else -1]
@@ -189,8 +174,7 @@ _NOT_HERE = {
 def instantiate_action(entity: Entity, parser: Parser) -> Action:
     """The action that an entity stands for.
 
-    Raises:
-        RuntimeError: if no action has this name; and whatever its `parse` raises, with the place.
+    Raises RuntimeError if no action has this name; and whatever its `parse` raises, with the place.
     """
     try:
         method = _known(action_parse_methods, entity.type_name, "Unrecognized entity of the type: ")
@@ -207,8 +191,7 @@ def instantiate_action(entity: Entity, parser: Parser) -> Action:
 def instantiate_substitution(type_name: str, args: Sequence[Any] | None = None) -> Substitution:
     """The substitution that `$(type_name args…)` stands for; each argument is a list of substitutions.
 
-    Raises:
-        RuntimeError: if no substitution has this name; and whatever its `parse` raises.
+    Raises RuntimeError if no substitution has this name; and whatever its `parse` raises.
     """
     method = _known(substitution_parse_methods, type_name, "Unknown substitution: ")
     substitution_type, kwargs = method([] if args is None else list(args))
@@ -262,8 +245,7 @@ def replace_escaped_characters(data: str) -> str:
 def parse_substitution(string_value: str) -> list[Substitution]:
     """The pieces of a text: what is plain, and what stands for something.
 
-    Raises:
-        SubstitutionSyntaxError: if a `$(` is not closed, or is otherwise wrong.
+    Raises SubstitutionSyntaxError if a `$(` is not closed, or is otherwise wrong.
     """
     if not isinstance(string_value, str):
         raise TypeError(f"expected text, got {string_value!r} of type {type(string_value).__name__}")
@@ -276,8 +258,7 @@ def parse_substitution(string_value: str) -> list[Substitution]:
 def parse_if_substitutions(value: Any) -> Any:
     """A value with its texts parsed; text without substitutions stays text, and other values as they are.
 
-    Raises:
-        ValueError: if the items of a list are of several types.
+    Raises ValueError if the items of a list are of several types.
     """
     kinds: set[type] = set()
     if not isinstance(value, list):
@@ -392,8 +373,7 @@ class Parser:
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
         """The root entity of a file; in this base by the reader that its ending asks for, or else by any that can read it.
 
-        Raises:
-            InvalidFrontendLaunchFileError: if none can.
+        Raises InvalidFrontendLaunchFileError if none can.
         """
         if isinstance(file, str | Path):
             name, text = str(file), Path(file).read_text(encoding="utf-8-sig")
@@ -441,8 +421,7 @@ class Parser:
     def parse_description(self, entity: Entity) -> LaunchDescription:
         """The description that a root entity stands for.
 
-        Raises:
-            RuntimeError: if the root is not `launch`; and whatever is wrong below it.
+        Raises RuntimeError if the root is not `launch`; and whatever is wrong below it.
         """
         if entity.type_name != "launch":
             raise explained(RuntimeError("Expected 'launch' as root tag"), place=entity.place)

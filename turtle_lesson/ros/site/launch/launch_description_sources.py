@@ -78,8 +78,7 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
 def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
     """What the file's `generate_launch_description()` returns.
 
-    Raises:
-        InvalidPythonLaunchFileError: if it has no such function; and whatever the file itself raises.
+    Raises InvalidPythonLaunchFileError if it has no such function; and whatever the file itself raises.
     """
     module = load_python_launch_file_as_module(python_launch_file_path)
     generate = getattr(module, "generate_launch_description", None)
@@ -113,8 +112,7 @@ def get_launch_description_from_frontend_launch_file(
 ) -> LaunchDescription:
     """The description in a launch file that is not Python.
 
-    Raises:
-        InvalidFrontendLaunchFileError: if no reader can read it; and whatever is wrong in it.
+    Raises InvalidFrontendLaunchFileError if no reader can read it; and whatever is wrong in it.
     """
     root, reader = parser.load(launch_file_path)
     return reader.parse_description(root)
@@ -156,8 +154,7 @@ def get_launch_description_from_any_launch_file(
 ) -> LaunchDescription:
     """The description in a launch file.
 
-    Raises:
-        InvalidLaunchFileError: caused by what went wrong in the file; its text is the real one.
+    Raises InvalidLaunchFileError caused by what went wrong in the file; its text is the real one.
     """
     extension = os.path.splitext(launch_file_path)[1].lstrip(".")
     is_python = extension not in {"xml", "yaml", "yml"}

@@ -27,11 +27,6 @@ class LaunchService:
     """Takes descriptions in, and runs until all that they started has ended.
 
     In a notebook cell `run()` is live, at the pace of the wall clock, until the cell is interrupted.
-
-    Args:
-        argv: words for the context.
-        noninteractive: whether it has no terminal.
-        debug: accepted; launch prints at its default verbosity here.
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
@@ -54,11 +49,7 @@ class LaunchService:
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
-        """Carry all out until the launch has ended; 0, or 1 after an error in a description.
-
-        Args:
-            shutdown_when_idle: whether the launch ends when nothing runs any more and nothing is to come.
-        """
+        """Carry all out until nothing runs any more, or the launch was shut down; 0, or 1 after an error in a description."""
         if running_strand() is not None:
             return self._run(shutdown_when_idle)
         from rclpy._blocking import spin_live

@@ -71,11 +71,7 @@ class LaunchConfiguration(Substitution):
         self._default: list[Substitution] | None = default
 
     def perform(self, context: LaunchContext) -> str:
-        """The value, or the default.
-
-        Raises:
-            SubstitutionFailure: if it has neither.
-        """
+        """The value, or the default. Raises SubstitutionFailure if it has neither."""
         name = perform_substitutions(context, self.variable_name)
         context._configurations_read.add(name)
         if name in context.launch_configurations:
@@ -102,11 +98,7 @@ class EnvironmentVariable(Substitution):
         self.default_value = None if default_value is None else pieces(default_value)
 
     def perform(self, context: LaunchContext) -> str:
-        """The value, or the default.
-
-        Raises:
-            SubstitutionFailure: if it has neither.
-        """
+        """The value, or the default. Raises SubstitutionFailure if it has neither."""
         name = perform_substitutions(context, self.name)
         if name in context.environment:
             return context.environment[name]
@@ -124,11 +116,7 @@ class LocalSubstitution(Substitution):
         self._shown = f"LocalVar('{description or expression}')"
 
     def perform(self, context: LaunchContext) -> str:
-        """The value as text.
-
-        Raises:
-            SubstitutionFailure: if there is no such value.
-        """
+        """The value as text. Raises SubstitutionFailure if there is no such value."""
         value: object = context.locals
         for name in self.expression.split("."):
             try:
@@ -164,11 +152,7 @@ class _Place(Substitution):
     _local: str
 
     def perform(self, context: LaunchContext) -> str:
-        """The path.
-
-        Raises:
-            SubstitutionFailure: outside of a launch file.
-        """
+        """The path. Raises SubstitutionFailure outside of a launch file."""
         values = context.get_locals_as_dict()
         if self._local not in values:
             raise SubstitutionFailure(f"{type(self).__name__} used outside of a launch file (in a script)")
@@ -200,11 +184,7 @@ class PythonExpression(Substitution):
         self.python_modules = pieces(python_modules)
 
     def perform(self, context: LaunchContext) -> str:
-        """The expression's value as text.
-
-        Raises:
-            SubstitutionFailure: if it is no expression, or fails.
-        """
+        """The expression's value as text. Raises SubstitutionFailure if it is no expression, or fails."""
         text = perform_substitutions(context, self.expression)
         names: dict[str, Any] = {}
         for part in self.python_modules:
@@ -389,11 +369,7 @@ class FindExecutable(Substitution):
         self.name = pieces(name)
 
     def perform(self, context: LaunchContext) -> str:
-        """The path.
-
-        Raises:
-            SubstitutionFailure: if it is not on the PATH.
-        """
+        """The path. Raises SubstitutionFailure if it is not on the PATH."""
         name = perform_substitutions(context, self.name)
         if name in PROGRAMS:
             return name
@@ -409,12 +385,7 @@ class CommandFailure(SubstitutionFailure):
 
 @expose_as("command")
 class Command(Substitution):
-    """Stands for the output of a command. Here these are `cat FILE`, `echo …` and `xacro FILE`.
-
-    Args:
-        command: the command, as one text.
-        on_stderr: what to do if it prints to stderr: fail, ignore, warn or capture.
-    """
+    """Stands for the output of a command. Here these are `cat FILE`, `echo …` and `xacro FILE`."""
 
     _shown = "Command({command})"
 
@@ -425,9 +396,8 @@ class Command(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """What it prints.
 
-        Raises:
-            SubstitutionFailure: if it fails, or the simulation does not have it.
-            NotHereError: if it needs a Python package that is not installed; then the launch goes on without the action.
+        Raises SubstitutionFailure if it fails, or the simulation does not have it, and NotHereError if it needs a
+        Python package that is not installed; then the launch goes on without the action.
         """
         text = perform_substitutions(context, self.command)
         if perform_substitutions(context, self.on_stderr) not in ("fail", "ignore", "warn", "capture"):

@@ -74,8 +74,7 @@ def text_of(context: LaunchContext, given: SomeSubstitutionsType) -> str:
 def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
     """A plain value as it is; a substitution's text made a value of `kind`.
 
-    Raises:
-        TypeError: if it is no such value.
+    Raises TypeError if it is no such value.
     """
     if isinstance(value, kind) and not isinstance(value, Substitution):
         return value
@@ -94,8 +93,7 @@ SCALARS = (int, float, bool, str)
 def extract_type(data_type: Any) -> tuple[type, bool]:
     """A type such as `bool` or `List[float]`, as the scalar type and whether it is a list.
 
-    Raises:
-        ValueError: if it is neither a scalar type nor a list of one.
+    Raises ValueError if it is neither a scalar type nor a list of one.
     """
     is_list = get_origin(data_type) is list
     kind = get_args(data_type)[0] if is_list else data_type
@@ -128,13 +126,7 @@ def is_instance_of(value: Any, data_type: Any = None, can_be_str: bool = False) 
 def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) -> Any:
     """Text made a value of a type; None leaves it to YAML's rules.
 
-    Args:
-        value: the text.
-        data_type: the type.
-        can_be_str: whether text that is no such value stays as it is.
-
-    Raises:
-        ValueError: if it is no such value.
+    Raises ValueError if it is no such value, unless it `can_be_str`.
     """
     kind, is_list = (None, False) if data_type is None else extract_type(data_type)
     try:
@@ -153,9 +145,7 @@ def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) 
 def get_typed_value(value: str | list[str], data_type: Any, can_be_str: bool = False) -> Any:
     """Text, or a list of texts, made a value of a type.
 
-    Raises:
-        ValueError: if it is no such value.
-        TypeError: if a list is given for a type that is none.
+    Raises ValueError if it is no such value, and TypeError if a list is given for a type that is none.
     """
     if isinstance(value, str):
         return coerce_to_type(value, data_type, can_be_str)

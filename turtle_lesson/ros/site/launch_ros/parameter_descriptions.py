@@ -53,11 +53,7 @@ def parameters_in(context: LaunchContext, given: Mapping[Any, Any]) -> Iterator[
 
 
 def value_of(context: LaunchContext, value: Any) -> Any:
-    """One value, substitutions performed.
-
-    Raises:
-        ParameterTypeError: if no ROS parameter can have it.
-    """
+    """One value, substitutions performed. Raises ParameterTypeError if no ROS parameter can have it."""
     if hasattr(value, "evaluate"):  # a ParameterValue
         return value.evaluate(context)
     if isinstance(value, PLAIN):
@@ -99,8 +95,7 @@ def _from_sequence(context: LaunchContext, items: Sequence[Any]) -> Any:
 def uniform(items: list[Any]) -> list[Any]:
     """The items if they are of one type, integers among floats made floats.
 
-    Raises:
-        ParameterTypeError: if they are not, or if there are none.
+    Raises ParameterTypeError if they are not, or if there are none.
     """
     kinds = {type(item) for item in items}
     if kinds == {int, float}:
@@ -127,23 +122,14 @@ def as_argument(value: Any) -> str:
 
 
 class ParameterValue:
-    """A value with its type: `ParameterValue(LaunchConfiguration('id'), value_type=str)`.
-
-    Attributes:
-        value: the value as it was given.
-        value_type: bool, int, float, str, a list of one of these, or None for YAML's rules.
-    """
+    """A value with its type (None: by YAML's rules): `ParameterValue(LaunchConfiguration('id'), value_type=str)`."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
         self.value = value
         self.value_type = value_type
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """The value in this context.
-
-        Raises:
-            TypeError: if it is not of the type.
-        """
+        """The value in this context. Raises TypeError if it is not of the type."""
         if self.value_type is None:
             return value_of(context, self.value)
         if get_origin(self.value_type) is not list:
@@ -187,8 +173,7 @@ class ParameterFile:
     def evaluate(self, context: LaunchContext) -> Path:
         """The file's path in this context; with `allow_substs` that of a copy with the substitutions performed.
 
-        Raises:
-            SubstitutionFailure: if one of them has no value.
+        Raises SubstitutionFailure if one of them has no value.
         """
         path = Path(perform_substitutions(context, self.param_file))
         if not perform_text_as(context, self.allow_substs, bool) or not path.is_file():

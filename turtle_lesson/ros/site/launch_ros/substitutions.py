@@ -31,11 +31,7 @@ class ExecutableInPackage(Substitution):
         self.executable, self.package = pieces(executable), pieces(package)
 
     def perform(self, context: LaunchContext) -> str:
-        """The path.
-
-        Raises:
-            PackageNotFoundError, SubstitutionFailure: if there is no such package or program.
-        """
+        """The path. Raises PackageNotFoundError or SubstitutionFailure if there is no such package or program."""
         package, executable = self._names(context)
         self.target(context)
         return (current_packages().get(package).libexec / executable).as_posix()
@@ -64,11 +60,7 @@ class FindPackage(Substitution):
         raise NotImplementedError
 
     def perform(self, context: LaunchContext) -> str:
-        """The folder.
-
-        Raises:
-            PackageNotFoundError: if there is no such package.
-        """
+        """The folder. Raises PackageNotFoundError if there is no such package."""
         return self.find(perform_substitutions(context, self.package))
 
 

@@ -70,11 +70,7 @@ class Parser(frontend.Parser):
 
     @classmethod
     def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
-        """The root entity of a text.
-
-        Raises:
-            xml.etree.ElementTree.ParseError: if it is not well formed.
-        """
+        """The root entity of a text. Raises xml.etree.ElementTree.ParseError if it is not well formed."""
         return Entity(_tree(text, name), file=name), cls()
 
 

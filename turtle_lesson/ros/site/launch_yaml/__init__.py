@@ -105,9 +105,7 @@ class Parser(frontend.Parser):
     def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
         """The root entity of a text.
 
-        Raises:
-            yaml.YAMLError: if it is no YAML.
-            RuntimeError: if it has not exactly one root.
+        Raises yaml.YAMLError if it is no YAML, and RuntimeError if it has not exactly one root.
         """
         try:
             tree = _tree(text, name)

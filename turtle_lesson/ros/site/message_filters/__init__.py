@@ -200,9 +200,7 @@ class TimeSynchronizer(SimpleFilter):
 class ApproximateTimeSynchronizer(TimeSynchronizer):
     """The same for messages whose stamps lie less than `slop` seconds apart.
 
-    Args:
-        allow_headerless: whether messages without header are taken, with the time at which they come.
-        sync_arrival_time: whether that time counts for all messages (newer releases).
+    With `allow_headerless` a message without header counts as of when it comes, with `sync_arrival_time` (newer) every one.
     """
 
     def __init__(

@@ -33,14 +33,9 @@ def message_to_yaml(
     no_str: bool = False,
     flow_style: bool = False,
 ) -> str:
-    """A message as YAML, with a line end.
+    """A message as YAML, with a line end; in `flow_style` on one line.
 
-    Args:
-        msg: the message.
-        truncate_length: how many characters of a text and elements of an array are shown; None for all.
-        no_arr: show arrays by their type and length alone.
-        no_str: show texts by their length alone.
-        flow_style: in brackets and braces, on one line.
+    Texts and arrays are cut after `truncate_length` characters or elements; `no_arr` and `no_str` leave their length alone.
     """
     import yaml
 

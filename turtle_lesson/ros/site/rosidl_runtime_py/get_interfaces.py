@@ -42,9 +42,7 @@ get_action_interfaces = partial(get_interfaces, folders=("action",))
 def get_interface_path(interface_name: str) -> str:
     """The file that defines an interface, by its name such as `geometry_msgs/msg/Twist`.
 
-    Raises:
-        ValueError: the name is no such name.
-        LookupError: there is no such package or interface.
+    Raises ValueError where the name is no such name, and LookupError where there is no such package or interface.
     """
     parts = interface_name.split("/")
     if len(parts) < 2:

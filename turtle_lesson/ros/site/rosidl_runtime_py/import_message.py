@@ -11,9 +11,8 @@ from rosidl_parser.definition import NamespacedType
 def import_message_from_namespaced_type(message_type: NamespacedType) -> Any:
     """The class that a type such as `NamespacedType(['geometry_msgs', 'msg'], 'Twist')` names.
 
-    Raises:
-        ModuleNotFoundError: there is no such package, or it has no such folder.
-        AttributeError: the package has no interface of this name.
+    Raises ModuleNotFoundError where there is no such package, or it has no such folder, and AttributeError where the
+    package has no interface of this name.
     """
     module = import_module(".".join(message_type.namespaces))
     owner, underscore, part = message_type.name.rpartition("_")

@@ -26,20 +26,15 @@ Setter = Callable[[Any], None]
 def set_message_fields(
     msg: Any, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
 ) -> list[Setter]:
-    """Set the fields of a message to values as YAML gives them, converted to the fields' types.
+    """Set the fields of a message, request or goal to values as YAML gives them, converted to the fields' types.
 
     Args:
-        msg: the message, a request or a goal; it is changed.
-        values: by the fields' names; a dictionary again for a field that is a message. They are not changed.
         expand_header_auto: whether `auto` for a `std_msgs/Header` means one whose stamp is set later.
         expand_time_now: whether `now` for a `builtin_interfaces/Time` means one that is set later.
 
-    Returns:
-        Functions that want a `builtin_interfaces/Time` and set these stamps, to be called with the time of sending.
-
-    Raises:
-        AttributeError: there is no field of a name; a note says which there are.
-        TypeError, ValueError, OverflowError, AssertionError: a value does not suit its field.
+    Returns functions that want a `builtin_interfaces/Time` and set these stamps, to be called with the time of sending.
+    Raises AttributeError where there is no field of a name; a note says which there are; TypeError, ValueError, OverflowError
+    or AssertionError where a value does not suit its field.
     """
     filling = _Filling(expand_header_auto, expand_time_now)
     filling.fill(msg, deepcopy(values))

@@ -25,14 +25,11 @@ PAUSE = 0.02
 
 
 class Buffer(BufferCore, BufferInterface):
-    """Keeps the transforms that a TransformListener hears, and answers for any two frames.
+    """Keeps the transforms that a TransformListener hears (10 s unless told otherwise), and answers for any two frames.
 
-    Args:
-        cache_time: how long transforms are kept; 10 s if left out.
-        node: one that shall offer the service `tf2_frames`, which lists all frames as YAML.
-
-    Where a `timeout` is given, lookups wait that long at most, in robot time, and hold up their thread meanwhile. So in a
-    callback of a single-threaded executor no transform can come while one is waited for, here as on a robot.
+    A node given offers the service `tf2_frames`, which lists all frames as YAML. Where a `timeout` is given, lookups wait that
+    long at most, in robot time, and hold up their thread meanwhile. So in a callback of a single-threaded executor no transform
+    can come while one is waited for, here as on a robot.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:

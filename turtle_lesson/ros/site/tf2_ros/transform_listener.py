@@ -23,17 +23,9 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class TransformListener:
-    """Fills a buffer with what is told on /tf and /tf_static.
+    """Fills a buffer with what is told on /tf and /tf_static, once its node is spun.
 
-    It hears nothing until its node is spun.
-
-    Args:
-        buffer: what to fill.
-        node: the node that listens; None to have one made for it (then with `spin_thread`).
-        spin_thread: have a thread of its own spin the node.
-        qos, static_qos: quality of service of the two subscriptions, or how many messages to keep.
-        tf_topic, tf_static_topic: other topics to listen to.
-        static_only: hear /tf_static alone.
+    With `spin_thread` a thread of its own spins it; without a node, one is made for it.
     """
 
     def __init__(

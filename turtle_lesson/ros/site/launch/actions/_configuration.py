@@ -32,14 +32,7 @@ __all__ = [
 
 @expose_action("arg")
 class DeclareLaunchArgument(Action):
-    """Names an argument, with its default, what it is for, and which values it may have.
-
-    Attributes:
-        name: the argument's name.
-        default_value: the default, or None if the argument must be given.
-        description: what it is for.
-        choices: the values that it may have, or None for any.
-    """
+    """Names an argument, with its default, what it is for, and which values it may have (None: any)."""
 
     _tag: ClassVar = {
         "name": plain("name"),
@@ -71,8 +64,7 @@ class DeclareLaunchArgument(Action):
     def execute(self, context: LaunchContext) -> None:
         """Take the default if nothing was given, and check the value.
 
-        Raises:
-            RuntimeError: if a value is missing, or not among the choices.
+        Raises RuntimeError if a value is missing, or not among the choices.
         """
         configurations = context.launch_configurations
         if self.name not in configurations:
@@ -230,14 +222,7 @@ class ResetEnvironment(Action):
 
 @expose_action("append_env")
 class AppendEnvironmentVariable(Action):
-    """Adds something to an environment variable that is a list, such as a path.
-
-    Attributes:
-        name: the variable's name.
-        value: what is added.
-        prepend: whether it is put before the others, as a truth value or as substitutions.
-        separator: what stands between.
-    """
+    """Adds something behind or before what is in an environment variable that is a list, such as a path."""
 
     _tag: ClassVar = {
         "name": text("name"),

@@ -51,11 +51,7 @@ class Log(Action):
         self._logger_name = logger_name
 
     def execute(self, context: LaunchContext) -> None:
-        """Print it.
-
-        Raises:
-            KeyError: if there is no such level.
-        """
+        """Print it. Raises KeyError if there is no such level."""
         level = perform_substitutions(context, self.level).upper()
         if level not in LEVELS:
             raise KeyError(f"Invalid log level '{level}', expected: {LEVELS.keys()}")

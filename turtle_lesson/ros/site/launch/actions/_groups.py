@@ -41,11 +41,7 @@ __all__ = ["GroupAction", "IncludeLaunchDescription", "OpaqueFunction", "TimerAc
 class GroupAction(Action):
     """Gives its actions; in a scope, what they set is forgotten at the end.
 
-    Args:
-        actions: what is in the group.
-        scoped: whether it has a scope of its own.
-        forwarding: whether the scope begins with what was set outside.
-        launch_configurations: what is set at the beginning.
+    The scope begins with what was set outside if it is `forwarding`, and with these launch configurations.
     """
 
     _tag: ClassVar = {
@@ -144,8 +140,7 @@ class IncludeLaunchDescription(Action):
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Load the description, check its arguments, and give it.
 
-        Raises:
-            NotHereError: if it is one of a package that only robots have, or imports such a package.
+        Raises NotHereError if it is one of a package that only robots have, or imports such a package.
         """
         values = context.get_locals_as_dict()
         places = {name: values[name] for name in _PLACES if name in values}

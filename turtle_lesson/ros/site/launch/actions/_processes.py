@@ -43,13 +43,7 @@ class Program:
 
 
 class ExecuteLocal(Action):
-    """Base of the actions that run a program: here a node, a `ros2` command or a Python file.
-
-    Attributes:
-        process_description: the command.
-        output: where its output goes.
-        shell: whether the command is one for a shell.
-    """
+    """Base of the actions that run a program: here a node, a `ros2` command or a Python file."""
 
     _completes_later = True
 
@@ -111,8 +105,7 @@ class ExecuteLocal(Action):
     def _find_program(self, context: LaunchContext) -> Program:
         """What to run: a command of the simulation, unless a subclass knows better.
 
-        Raises:
-            UnknownCommand: if there is none of this name here.
+        Raises UnknownCommand if there is none of this name here.
         """
         return hooks.program_of_command(self.process_description.final_cmd, shell=self.shell)
 
@@ -136,8 +129,7 @@ class ExecuteLocal(Action):
 def _on_screen(context: LaunchContext, output: Any) -> set[str]:
     """Which of `stdout` and `stderr` reach the screen.
 
-    Raises:
-        ValueError: for a value of `output` that launch does not know.
+    Raises ValueError for a value of `output` that launch does not know.
     """
     if isinstance(output, Mapping):
         return {stream for name, where in output.items() for stream in _streams(name, where)}

@@ -28,12 +28,7 @@ def _constants(message: Any, *beginnings: str) -> dict[int, str]:
 class ChangeState(Event):
     """The nodes that match are asked to make a transition, such as `Transition.TRANSITION_CONFIGURE`.
 
-    Attributes:
-        lifecycle_node_matcher: says of an action whether it is meant.
-        transition_id: the transition.
-
-    Raises:
-        RuntimeError: if there is no such transition.
+    Raises RuntimeError if there is no such transition.
     """
 
     name = "launch_ros.events.lifecycle.ChangeState"
@@ -54,12 +49,7 @@ class ChangeState(Event):
 
 
 class StateTransition(Event):
-    """A managed node has gone from one state to another.
-
-    Attributes:
-        action: the node's action.
-        msg: the node's message, a lifecycle_msgs/msg/TransitionEvent.
-    """
+    """A managed node has gone from one state to another, as its lifecycle_msgs/msg/TransitionEvent says."""
 
     name = "launch_ros.events.lifecycle.StateTransition"
 
@@ -99,15 +89,9 @@ def matches_node_name(node_name: str) -> Callable[[Any], bool]:
 
 
 class OnStateTransition(EventHandler):
-    """Gives its entities when a managed node's transition fits all that is given.
+    """Gives its entities when a transition, such as `configure`, of a node (None: any) fits all that is given.
 
-    Args:
-        entities: what is visited then.
-        target_lifecycle_node: the node, or None for any.
-        transition: the transition's name, such as `configure`.
-        start_state: the state that it comes from, such as `unconfigured`.
-        goal_state: the state that it comes to.
-        matcher: a function of the event; if it is given, it alone decides.
+    A matcher, which is a function of the event, decides alone.
     """
 
     def __init__(
@@ -142,14 +126,7 @@ class OnStateTransition(EventHandler):
 class LifecycleNode(Node):
     """Starts a managed node; carries out ChangeState events for it and emits its StateTransition events.
 
-    Args:
-        name: the node's name, which must be given.
-        namespace: its namespace.
-        autostart: whether it is configured and activated at once.
-
-    Attributes:
-        is_autostart: whether it is configured and activated at once, as substitutions.
-        current_state: the state that it was last heard to be in, such as `inactive`.
+    With `autostart` it is configured and activated at once. `current_state` is the one that it was last heard to be in.
     """
 
     _tag: ClassVar = {**Node._tag, "autostart": typed("autostart", bool)}

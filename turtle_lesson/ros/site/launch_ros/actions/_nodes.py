@@ -56,18 +56,12 @@ class Node(ExecuteProcess):
 
     Args:
         executable: the program; without a package, the path of a Python file.
-        package: the package that has it.
         name: the node's name, or None for the one that the program chooses.
         namespace: its namespace; a relative one goes within what PushRosNamespace set.
         exec_name: what the process is called in the output; the executable's name if it is not given.
         parameters: a list of dictionaries, paths of YAML files, or both; a later one counts more.
-        remappings: pairs of names, from and to.
         ros_arguments: further words behind `--ros-args`.
         arguments: further words before it, for the program itself.
-
-    Attributes:
-        node_package: the package, as it was given.
-        node_executable: the executable, as it was given.
     """
 
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
@@ -134,8 +128,7 @@ class Node(ExecuteProcess):
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the node started.
 
-        Raises:
-            NotHereError: if only a robot can start it; that is said before its parameters are looked at.
+        Raises NotHereError if only a robot can start it; that is said before its parameters are looked at.
         """
         if self.__in_package is not None:
             self.__in_package.target(context)
@@ -260,11 +253,7 @@ class _LeftOut(Action):
     """An action that only a robot can carry out."""
 
     def execute(self, context: LaunchContext) -> NoReturn:
-        """Have it left out.
-
-        Raises:
-            NotHereError: always.
-        """
+        """Have it left out. Always raises NotHereError."""
         why = "composable nodes are C++ libraries, and only Python nodes run here"
         raise NotHereError(type(self).__name__, why)
 

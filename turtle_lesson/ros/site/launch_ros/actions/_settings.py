@@ -112,11 +112,7 @@ class PushRosNamespace(Action):
         self.__namespace = pieces(namespace)
 
     def execute(self, context: LaunchContext) -> None:
-        """Push it.
-
-        Raises:
-            InvalidNamespaceException: if it is not allowed.
-        """
+        """Push it. Raises InvalidNamespaceException if it is not allowed."""
         namespace = in_namespace(context, perform_substitutions(context, self.__namespace))
         if namespace is not None:
             validate_namespace(namespace)
