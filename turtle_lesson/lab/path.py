@@ -43,6 +43,10 @@ LABEL = (0.45, 0.2)
 """Half the width and half the height of the word "start", m."""
 
 
+Place = tuple[float, float]
+"""x and y, m."""
+
+
 def find_jumps(poses: np.ndarray) -> np.ndarray:
     """Return the indices of the poses that the turtle cannot have driven to: teleport or reset.
 
@@ -84,10 +88,10 @@ class Trail:
 
     def __init__(self, step: float = 0.04, stretch: float = 1.0, tip: int = 24, most: int = MOST_POINTS) -> None:
         self._step, self._stretch, self._longest, self._most = step, stretch, tip, most
-        self._seen: np.ndarray | None = None
-        self._here: np.ndarray | None = None
+        self._seen: int | None = None
+        self._here: Place | None = None
         self._turn = 0.0
-        self._tip: list[np.ndarray] = []
+        self._tip: list[Place] = []
         self.old: list[np.ndarray] = []
         """The pieces that change no more: each n by 2, m."""
         self.changes = 0
@@ -101,21 +105,20 @@ class Trail:
 
     def follow(self, poses: Table) -> bool:
         """Take in what was heard since the last time; returns whether there was anything new to draw."""
-        rows = poses.array() if self._seen is None else poses.after(int(self._seen["stamp"][-1]))
+        rows = poses.array() if self._seen is None else poses.after(self._seen - 1)  # from the last one that was seen
         rows = rows[np.isfinite(rows["x"]) & np.isfinite(rows["y"])]
-        if not len(rows):
+        known = 0 if self._seen is None else int((rows["stamp"] <= self._seen).sum())
+        places: list[Place] = list(zip(rows["x"].tolist(), rows["y"].tolist(), strict=True))
+        if len(places) == known:
             return False
-        joined = rows if self._seen is None else np.concatenate([self._seen, rows])
-        known = len(joined) - len(rows)
-        jumps = set(find_jumps(joined).tolist())
-        places = np.column_stack([joined["x"], joined["y"]])
-        moved = self._here is None or bool((places[known:] != self._here).any())
+        jumps = set(find_jumps(rows).tolist())
+        moved = any(place != self._here for place in places[known:])
         for index in range(known, len(places)):
             self._add(places[index], index in jumps)
-        self._seen = joined[-1:]
+        self._seen = int(rows["stamp"][-1])
         return moved
 
-    def _add(self, place: np.ndarray, jumped: bool) -> None:
+    def _add(self, place: Place, jumped: bool) -> None:
         if jumped:
             self._finish([])
         if not self._tip:
@@ -129,7 +132,7 @@ class Trail:
                 self._keep(place if self._here is None else self._here)
         self._here = place
 
-    def _keep(self, place: np.ndarray) -> None:
+    def _keep(self, place: Place) -> None:
         far, turn = _way(self._tip[-1], place)
         if far:
             self._tip.append(place)
@@ -137,7 +140,7 @@ class Trail:
             if len(self._tip) >= self._longest:
                 self._finish([place])
 
-    def _finish(self, begin: list[np.ndarray]) -> None:
+    def _finish(self, begin: list[Place]) -> None:
         """The newest piece is done; another one begins."""
         if self._here is not None and not begin:
             self._tip.append(self._here)
@@ -149,9 +152,9 @@ class Trail:
         self.changes += 1
 
 
-def _way(begin: np.ndarray, end: np.ndarray) -> tuple[float, float]:
+def _way(begin: Place, end: Place) -> tuple[float, float]:
     """How far it is (m), and in which direction (rad)."""
-    x, y = end - begin
+    x, y = end[0] - begin[0], end[1] - begin[1]
     return math.hypot(x, y), math.atan2(y, x)
 
 

@@ -26,6 +26,9 @@ whole trail is sent again."""
 TRAIL_RATE = 10.0
 """So many times a second at most the trail is sent again; from its end to the turtle, the browser draws a line."""
 
+BREAK = np.full((1, 2), np.nan)
+"""Where the trail breaks."""
+
 JUMP = 0.3
 """At once it is sent again where that line would be longer than this, m."""
 
@@ -149,8 +152,9 @@ class GoalPad(LiveWidget):
         if (self.due("trail", TRAIL_RATE) or self._has_jumped(pose)) and self._trail.follow(recorder.poses):
             if self._trail.changes != self._changes:
                 self._changes = self._trail.changes
-                self.trail = pack([row for piece in self._trail.old for row in ([np.nan, np.nan], *piece)])
-            self.tail = pack([[np.nan, np.nan], *self._trail.tip[:-1]])  # the browser joins it to the turtle
+                pieces = [np.concatenate([BREAK, piece]) for piece in self._trail.old]
+                self.trail = b"".join(map(pack, pieces))
+            self.tail = pack(np.concatenate([BREAK, self._trail.tip[:-1]]))  # the browser joins it to the turtle
             self._trail_end = pose
         self._show_scan()
         obstacles = self.backend.board.obstacles

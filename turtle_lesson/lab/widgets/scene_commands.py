@@ -74,8 +74,9 @@ def _shown(path: str, shape: Any, material: Any, kind: Any) -> Any:
 
 def put(path: str, matrix: np.ndarray) -> bytes:
     """Say where something is, by a 4 by 4 matrix."""
-    numbers = np.round(np.asarray(matrix, float), 5).T.ravel().tolist()
-    return _put_head(path) + b"".join(map(umsgpack.packb, numbers))
+    numbers = np.empty(16, [("kind", "u1"), ("number", ">f8")])  # as msgpack has floats of 64 bits
+    numbers["kind"], numbers["number"] = 0xCB, np.round(matrix, 5).T.ravel()
+    return _put_head(path) + numbers.tobytes()
 
 
 @cache
