@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -21,9 +22,12 @@ from turtle_lesson.ros.runtime.world import World, open_world
 from turtle_lesson.session.packages import underlay_packages
 
 # A busy machine is no reason to fail: what hypothesis would refuse by its clock, CI or not, is taken. Fixtures may serve
-# several examples.
+# several examples. Each run tries others; a long search is `TURTLE_LESSON_EXAMPLES=1000 pytest -m hypothesis tests`.
 settings.register_profile(
-    "patient", deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
+    "patient",
+    deadline=None,
+    suppress_health_check=list(HealthCheck),
+    max_examples=int(os.environ.get("TURTLE_LESSON_EXAMPLES", 20)),
 )
 settings.load_profile("patient")
 

@@ -57,6 +57,7 @@ def test_arguments(text: str, expected: tuple[str, ...]) -> None:
         ('"${name}" STREQUAL "fish"', False),
         ("DEFINED name", True),
         ("name MATCHES ^tur", True),
+        ('name MATCHES "^[[a-z]urtle"', True),
         ("EXISTS /somewhere", False),
         ("", False),
         ("CMAKE_VERSION VERSION_LESS 3.8", False),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from command_cases import cases
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from workspace_cases import change, colcon, make_package, source_in, timeless
 
@@ -566,7 +566,6 @@ def test_without_setup_py(python_package: Path, world: World) -> None:
 # -- nonsense --------------------------------------------------------------------------------------------------------------
 
 
-@settings(max_examples=60, suppress_health_check=list(HealthCheck), deadline=None)
 @given(st.sampled_from(["CMakeLists.txt", "package.xml", STATUS, "srv/NavigateTo.srv"]), st.data())
 def test_damaged_files_never_end_in_a_traceback(package: Path, world: World, file: str, data: st.DataObject) -> None:
     good = (package / file).read_bytes()
@@ -591,7 +590,6 @@ ODD_WORDS = st.lists(
 )
 
 
-@settings(max_examples=80, suppress_health_check=list(HealthCheck), deadline=None)
 @given(ODD_WORDS)
 def test_odd_words_are_answered(tmp_path: Path, world: World, words: list[str]) -> None:
     folder = tmp_path / "empty"

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 import yaml
 from bag_help import write_bag
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.bags import BagError, scan
@@ -119,7 +119,6 @@ def test_cut_short_at_every_twentieth_the_more_there_is_the_more_is_read(sound: 
     assert counts[19] > 0.85 * 2 * COUNT
 
 
-@settings(max_examples=25)
 @given(part=st.floats(0, 1))
 def test_cut_short_anywhere(sound: Sound, tmp_path: Path, part: float) -> None:
     folder = spoil(sound, tmp_path, lambda data: data[: int(part * (len(data) - 1))])
@@ -133,7 +132,6 @@ def test_cut_short_anywhere(sound: Sound, tmp_path: Path, part: float) -> None:
     assert bag.message_count + (bag.lost or 0) == 2 * COUNT
 
 
-@settings(max_examples=25)
 @example(places=[(0.75, 1), (0.6328604590396264, 56)])
 @given(places=st.lists(st.tuples(st.floats(0, 1), st.integers(1, 255)), min_size=1, max_size=20))
 def test_spoiled_bytes_anywhere(sound: Sound, tmp_path: Path, places: list[tuple[float, int]]) -> None:
@@ -176,7 +174,6 @@ def test_a_database_whose_index_is_spoiled_is_read_without_it(tmp_path: Path) ->
     assert sorted(read(bag)) == sorted(written)
 
 
-@settings(max_examples=25)
 @given(data=st.binary(max_size=300), begin=st.sampled_from([b"", b"\x89MCAP0\r\n", b"SQLite format 3\0"]))
 def test_rubbish_is_no_bag(tmp_path: Path, data: bytes, begin: bytes) -> None:
     for name in ("x.mcap", "x.db3"):
@@ -211,7 +208,6 @@ NONSENSE: st.SearchStrategy[Any] = (
 KEYS = ["version", "storage_identifier", "relative_file_paths", "duration", "starting_time", "message_count", "files"]
 
 
-@settings(max_examples=30)
 @given(lies=st.dictionaries(st.sampled_from([*KEYS, "topics_with_message_count", "compression_format"]), NONSENSE))
 @example(lies={"files": ""})
 @example(lies={"relative_file_paths": {}})

@@ -9,7 +9,7 @@ from pathlib import Path
 import command_system as system
 import pytest
 from command_cases import type_in
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.cli.run_command import GROUPS, run
@@ -84,7 +84,6 @@ def commands(draw: st.DrawFn) -> list[str]:
     return ["ros2", group, verb, *(begin + rest if draw(st.booleans()) else rest + begin)]
 
 
-@settings(max_examples=300)
 @given(commands())
 def test_anything_is_answered(tmp_path: Path, words: list[str]) -> None:
     world = open_world()

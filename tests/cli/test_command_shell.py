@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from command_cases import FOLDER, check, type_in
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as some
 
 from turtle_lesson.ros.cli.arguments import WIDTH
@@ -472,7 +472,6 @@ def _typed(world: World, words: list[str]) -> tuple[str, str, int]:
     return out.getvalue(), error.getvalue(), code
 
 
-@settings(max_examples=60)
 @given(some.text(max_size=200))
 def test_any_line_is_answered(world: World, text: str) -> None:
     """Whatever stands behind ros2 on a line; signs that write files or start other commands are left out."""

@@ -3,7 +3,7 @@
 import struct
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from interface_cases import ROBOT_CONTROLLER, any_messages, built_in, message_class, write_package
 
@@ -79,7 +79,6 @@ def test_services_and_actions_travel_in_parts(robot):
     assert deserialize(serialize(goal), turn.Impl.SendGoalService.Request) == goal
 
 
-@settings(max_examples=150)
 @given(any_messages())
 def test_any_message_comes_back_as_it_went(message):
     data = serialize(message)
@@ -111,7 +110,6 @@ def test_bytes_cut_short_are_refused(data):
         deserialize(whole[:cut], LaserScan)
 
 
-@settings(deadline=None)
 @given(st.binary(max_size=200), any_messages())
 def test_garbage_is_read_as_some_message_or_refused(garbage, message):
     kind = type(message)

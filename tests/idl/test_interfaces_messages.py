@@ -9,7 +9,7 @@ from array import array
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from interface_cases import (
     ROBOT_CONTROLLER,
@@ -449,7 +449,6 @@ def test_fields_whose_names_only_look_nested_are_kept_apart():
     assert received.pose is not received.pose_pose
 
 
-@settings(max_examples=60)
 @given(any_messages())
 def test_any_message_survives_the_wire(message):
     received = message._wire_copy()

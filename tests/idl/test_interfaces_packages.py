@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from interface_cases import built_in, messages, words
 from rosbags.interfaces import Nodetype
@@ -71,7 +71,6 @@ def test_no_message_that_humble_and_kilted_have_is_missing() -> None:
     assert sorted(name for name in theirs if name not in MESSAGES and not name.startswith(OF_THE_RECORDER)) == []
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(st.data())
 def test_any_message_is_read_and_written_alike_by_another_library(data: st.DataObject) -> None:
     """rosbags reads our bytes with its own definition of the type, and writes the same bytes again."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from interface_cases import PRIMITIVES, faults_of, message_class, values_of, words, write_package
 
@@ -171,7 +171,6 @@ def test_arrays_are_of_the_types_that_the_real_classes_use(shapes: Registry) -> 
     assert arrays.basics[0] is not arrays.basics[1]
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_every_shape_travels(shapes: Registry, data: st.DataObject) -> None:
     kind = data.draw(st.sampled_from(parts(shapes)))
@@ -350,7 +349,6 @@ def lines() -> st.SearchStrategy[str]:
     return field.map("{0[0]} {0[1]}{0[2]}{0[3]}".format) | st.text(max_size=20)
 
 
-@settings(max_examples=300, suppress_health_check=list(HealthCheck))
 @given(st.lists(lines(), max_size=4).map("\n".join))
 def test_any_definition_becomes_a_working_class_or_is_refused(text: str) -> None:
     try:
@@ -364,7 +362,6 @@ def test_any_definition_becomes_a_working_class_or_is_refused(text: str) -> None
     assert len(kind.get_fields_and_field_types()) == len(kind.SLOT_TYPES) == len(kind.__slots__)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_any_value_is_taken_or_refused_in_words(shapes: Registry, data: st.DataObject) -> None:
     """Whatever is assigned to a field, or given to a constructor: nothing but the documented errors."""

@@ -4,7 +4,7 @@ import re
 from xml.etree import ElementTree
 
 import nbformat
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from lab_fakes import NAVIGATE, POSE, SCAN, STATUS, TWIST, GraphNode
 from nbconvert import HTMLExporter
@@ -104,7 +104,6 @@ def test_a_page_shows_it_without_a_kernel_and_without_a_network():
     assert "flowchart TD" not in shown
 
 
-@settings(max_examples=50)
 @given(st.deferred(lambda: nodes_of))
 def test_no_box_lies_upon_another_or_beyond_the_edge(nodes):
     drawing = plot_graph(GraphNode(nodes)).svg
@@ -145,7 +144,6 @@ ends = st.dictionaries(names, st.just(POSE), max_size=3)
 nodes_of = st.dictionaries(names, st.fixed_dictionaries(dict.fromkeys(("pub", "sub", "srv", "cli"), ends)), max_size=4)
 
 
-@settings(max_examples=50)
 @given(nodes_of)
 def test_any_legal_names_give_lines_that_mermaid_can_read(nodes):
     picture = plot_graph(GraphNode(nodes))

@@ -11,7 +11,7 @@ from typing import Any
 
 import comm
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from ipywidgets.widgets import widget as registry
 
@@ -182,9 +182,6 @@ NONSENSE = st.recursive(
 )
 
 
-SETTINGS = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
-
-
 @pytest.fixture
 def shown() -> list[Any]:
     return all_widgets(running())
@@ -216,7 +213,6 @@ def check_they_work(shown: list[Any]) -> None:
 
 
 def test_no_state_that_a_page_sends_is_taken(shown: list[Any]) -> None:
-    @SETTINGS
     @given(data=st.data())
     def send(data: st.DataObject) -> None:
         for widget in shown:
@@ -231,7 +227,6 @@ def test_no_state_that_a_page_sends_is_taken(shown: list[Any]) -> None:
 
 
 def test_no_order_that_a_page_sends_breaks_a_widget(shown: list[Any]) -> None:
-    @SETTINGS
     @given(data=st.data())
     def send(data: st.DataObject) -> None:
         for widget in shown:

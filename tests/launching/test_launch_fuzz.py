@@ -10,7 +10,7 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from launch_world import FakeWorld
 
@@ -67,7 +67,6 @@ trees = st.recursive(
 )
 
 
-@settings(max_examples=80)
 @given(st.lists(trees, max_size=4))
 def test_any_xml_tree(parts: list[str]) -> None:
     carried_out(f"<launch>{''.join(parts)}</launch>", "fuzz.launch.xml")
@@ -84,13 +83,11 @@ bodies = st.recursive(
 )
 
 
-@settings(max_examples=80)
 @given(st.lists(st.dictionaries(st.sampled_from(TAGS), bodies, min_size=1, max_size=1), max_size=4))
 def test_any_yaml_tree(items: list[Any]) -> None:
     carried_out(yaml.safe_dump({"launch": items}), "fuzz_launch.yaml")
 
 
-@settings(max_examples=80)
 @given(st.text(max_size=60) | st.lists(bits, max_size=8).map("launch:\n- log: {message: ".__add__("").join))
 def test_any_text(text: str) -> None:
     with contextlib.suppress(UnicodeEncodeError):
@@ -99,7 +96,6 @@ def test_any_text(text: str) -> None:
         carried_out(f"<launch>{text}</launch>", "fuzz_launch.xml")
 
 
-@settings(max_examples=120)
 @given(st.lists(bits, max_size=10).map("".join) | st.text(max_size=30))
 def test_any_substitution(text: str) -> None:
     from launch import LaunchContext

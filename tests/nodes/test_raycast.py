@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from node_files import load_node
 
@@ -56,7 +56,6 @@ circles = st.builds(circle, coordinates, coordinates, sizes)
 boxes = st.builds(box, coordinates, coordinates, sizes, sizes, angles)
 
 
-@settings(max_examples=100)
 @given(x=coordinates, y=coordinates, heading=angles, things=st.lists(circles | boxes, max_size=8))
 @example(x=5.0, y=5.0, heading=0.0, things=[box(8.0, 5.0, 2.0, 2.0), circle(5.0, 9.0, 1.0)])  # along the axes
 @example(x=5.0, y=5.0, heading=math.pi / 2, things=[box(8.0, 8.0, 1.0, 1.0, math.pi / 4)])

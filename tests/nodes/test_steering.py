@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from node_files import load_node
 
@@ -87,7 +87,6 @@ headings = st.floats(-math.pi, math.pi)
 places = st.builds(place, coordinates, coordinates, headings)
 
 
-@settings(max_examples=300)
 @given(start=places, goal=places, delay=st.sampled_from(DELAYS))
 @example(start=place(MIDDLE, MIDDLE, math.pi), goal=place(1.0, MIDDLE, math.pi), delay=0.016)  # due west
 @example(start=place(MIDDLE, MIDDLE, -math.pi), goal=place(1.0, MIDDLE, -math.pi), delay=0.016)
@@ -106,7 +105,6 @@ def test_every_goal_is_reached_from_everywhere_in_bounded_time(start, goal, dela
         assert abs(command.angular) <= USUAL.angular_speed
 
 
-@settings(max_examples=200)
 @given(start=places, goal=places, delay=st.sampled_from(DELAYS[:3]))
 def test_it_ends_within_five_centimetres_and_four_degrees(start, goal, delay):
     turtle = Turtle(start.x, start.y, start.theta, delay)
@@ -115,7 +113,6 @@ def test_it_ends_within_five_centimetres_and_four_degrees(start, goal, delay):
     assert distance <= 0.05 and abs(turn) <= math.radians(4)
 
 
-@settings(max_examples=100)
 @given(
     start=places,
     goal=places,
@@ -135,7 +132,6 @@ inside = st.floats(1.0, WORLD - 1.0)
 inner_places = st.builds(place, inside, inside, headings)
 
 
-@settings(max_examples=200)
 @given(start=inner_places, goal=inner_places, delay=st.sampled_from(DELAYS))
 def test_a_way_a_metre_inside_the_walls_never_touches_them(start, goal, delay):
     turtle = Turtle(start.x, start.y, start.theta, delay)

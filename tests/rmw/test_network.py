@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import rclpy
 from example_interfaces.srv import AddTwoInts
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.duration import Duration
 from rclpy.event_handler import SubscriptionEventCallbacks
@@ -167,7 +167,6 @@ def test_a_cable_is_pulled_and_put_in_again() -> None:
         assert radio.run() == [*range(10), *after, *range(30, 60)]
 
 
-@settings(max_examples=40)
 @given(
     seed=st.integers(0, 1000),
     latency=st.floats(0, 0.3),
@@ -410,7 +409,6 @@ def test_a_name_goes_before_patterns_and_a_later_pattern_before_an_earlier_one()
 # ---------------------------------------------------------------- the watchdog behind deadlines and leases
 
 
-@settings(deadline=None)
 @given(span=st.integers(1, 5_000_000), gaps=st.lists(st.integers(1, 20_000_000), min_size=1, max_size=20))
 def test_every_span_that_is_over_is_counted_once(span: int, gaps: list[int]) -> None:
     simulation, alarms = Simulation(), []

@@ -491,7 +491,7 @@ LINES = [
 lines = some.builds(str.format, some.sampled_from(LINES), paths, paths, paths)
 
 
-@settings(max_examples=100, database=None)  # which would be written and cleared outside
+@settings(database=None)  # which would be written and cleared outside
 @given(some.lists(lines, min_size=1, max_size=8))
 def test_whatever_is_typed_nothing_changes_outside(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: list[str]

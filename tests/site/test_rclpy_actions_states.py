@@ -11,7 +11,7 @@ import rclpy
 from action_msgs.msg import GoalStatus
 from example_interfaces.action import Fibonacci
 from fibonacci_action import Feedback, Goal, Result, outcome, send, wait
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.action import ActionClient, ActionServer, CancelResponse
 from rclpy.exceptions import RCLError
@@ -42,7 +42,6 @@ def live(program: Any) -> Any:
     return found[0]
 
 
-@settings(max_examples=60)
 @given(st.lists(st.sampled_from([*STEPS, *MORE]), max_size=10))
 def test_a_goal_is_always_in_the_state_of_the_model(steps: list[str]) -> None:
     def program() -> None:
@@ -95,7 +94,6 @@ def take(handle: Any, step: str, state: int) -> int:
     return STEPS[step].get(state, state)
 
 
-@settings(max_examples=40)
 @given(
     st.lists(
         st.tuples(st.integers(0, 3), st.sampled_from(["succeed", "abort", "nothing", "raise"]), st.booleans()),
@@ -143,7 +141,6 @@ def test_every_goal_gets_its_own_result(goals: list[tuple[int, str, bool]]) -> N
     assert live(program) == expected
 
 
-@settings(max_examples=40)
 @given(st.binary(min_size=16, max_size=16))
 def test_any_number_is_a_goals_number(number: bytes) -> None:
     def program() -> Any:

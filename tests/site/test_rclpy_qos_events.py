@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 import rclpy
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.duration import Duration
 from rclpy.event_handler import (
@@ -240,7 +240,6 @@ def test_what_waits_too_long_in_the_queue_expires_there(world: World) -> None:
     assert numbers_heard(world, lasting(0.35), 2.0, nap=0.3) == []
 
 
-@settings(max_examples=20)
 @given(
     lifespan=st.integers(5, 150).map(lambda tenth: tenth / 100),
     after=st.integers(1, 20).map(lambda tenths: tenths / 10),

@@ -22,7 +22,7 @@ import std_msgs.msg as std
 import std_srvs.srv as services
 import turtlesim.action as actions
 import yaml
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from interface_cases import built_in, messages
 from rosidl_parser.definition import (
@@ -257,7 +257,6 @@ def test_a_message_of_ones_own_making_will_do() -> None:
 # -- there and back ------------------------------------------------------------------------------------------------------
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_what_is_printed_in_full_can_be_read_back(data: st.DataObject) -> None:
     names = [f"{package}/{name}" for package, found in api.get_message_interfaces().items() for name in found]
@@ -292,7 +291,6 @@ ODD: st.SearchStrategy[Any] = st.recursive(
 )
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_any_values_are_taken_or_refused_in_words(data: st.DataObject) -> None:
     names = [

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as some
 
 from turtle_lesson.ros.runtime.world import World, open_world
@@ -564,7 +564,6 @@ def test_a_pool_ends_its_work_before_its_program_ends(world: World) -> None:
 # ---------------------------------------------------------------- the same, every time
 
 
-@settings(max_examples=25)
 @given(
     jobs=some.lists(some.floats(0, 2).map(lambda seconds: round(seconds, 3)), min_size=1, max_size=12),
     workers=some.integers(1, 4),

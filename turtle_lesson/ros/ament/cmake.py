@@ -8,6 +8,7 @@ Facts: https://cmake.org/cmake/help/latest/manual/cmake-language.7.html and, for
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from glob import glob
@@ -37,6 +38,12 @@ def split_at(args: Sequence[str], words: Collection[str]) -> tuple[tuple[str, ..
     """The arguments before the first of CMake's own words, and those from it on."""
     end = next((place for place, argument in enumerate(args) if argument in words), len(args))
     return tuple(args[:end]), tuple(args[end:])
+
+
+def regex_matches(regex: str, text: str) -> bool:
+    """Whether a part of the text fits, of which Python warns where brackets hold what may mean more one day: `[[a-z]`."""
+    with warnings.catch_warnings(action="ignore", category=FutureWarning):
+        return re.search(regex, text) is not None
 
 
 def _unreadable(words: str, place: str | int, line: int, reason: str) -> BuildFailure:
@@ -268,7 +275,7 @@ class _Condition:
             return left == right
         if operator == "IN_LIST":
             return left in right.split(";")
-        return operator == "MATCHES" and re.search(right, left) is not None
+        return operator == "MATCHES" and regex_matches(right, left)
 
     def _truth(self, text: str, quoted: bool) -> bool:
         if text.upper() in _TRUE:

@@ -17,7 +17,7 @@ from ..idl.model import Definition, DuplicateName, InvalidDefinition, MessageDef
 from ..idl.names import did_you_mean, module_name
 from ..idl.registry import PARSERS, Registry
 from ..sim.errors import shown_path
-from .cmake import Command, split_at
+from .cmake import Command, regex_matches, split_at
 from .install_tree import PYTHON_FOLDERS, Item, files_in
 from .manifest import Found
 from .package import SHARE, BuildFailure, filled, refused
@@ -168,7 +168,7 @@ def _directory_items(target: str, folder: Path, options: Sequence[str]) -> Itera
 def _fits(path: Path, kind: str, text: str) -> bool:
     """Whether a filter is about a path: a pattern looks at its last names, a regex at all of it."""
     if kind == "REGEX":
-        return re.search(text, path.as_posix()) is not None
+        return regex_matches(text, path.as_posix())
     parts = text.strip("/").split("/")
     last = path.parts[-len(parts) :]
     return len(last) == len(parts) and all(map(fnmatchcase, last, parts))
