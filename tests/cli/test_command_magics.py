@@ -44,7 +44,9 @@ def run(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(files, "_home", tmp_path)
     monkeypatch.setattr(files, "last_cd", None)
-    ipython.reset(new_session=False)
+    with monkeypatch.context() as patch:
+        patch.setattr("gc.collect", int)  # a full collection for each of 190 tests, which IPython itself doubts to need
+        ipython.reset(new_session=False)
     ipython.user_ns["lesson"] = start(seed=0)
     capsys.readouterr()
 

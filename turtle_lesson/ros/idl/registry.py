@@ -290,8 +290,8 @@ registry = Registry()
 
 def forget_modules(package: str) -> None:
     """Take a package's interface modules out of `sys.modules`; a real Python package of that name stays."""
-    inner = tuple(f"{package}.{folder}" for folder in FOLDERS)
-    for name in [each for each in sys.modules if each in inner or each.startswith(tuple(f"{i}." for i in inner))]:
+    below = f"{package}."
+    for name in [each for each in sys.modules if each.startswith(below) and each.split(".")[1] in FOLDERS]:
         del sys.modules[name]
     outer = sys.modules.get(package)
     if outer is None:
