@@ -364,12 +364,11 @@ def test_event_handlers(package: Path, world: World) -> None:
     assert "Did you mean 'console_direct'?" in answer.err
 
 
-def test_list_and_graph(package: Path, world: World) -> None:
+def test_list(package: Path, world: World) -> None:
     add(package, "bringup", "robot_controller")
     lines = "bringup\tsrc/bringup\t(ros.ament_cmake)\nrobot_controller\tsrc/robot_controller\t(ros.ament_cmake)\n"
     assert colcon(world, "list").out == lines
     assert colcon(world, "list -t -n").out == "robot_controller\nbringup\n"
-    assert colcon(world, "graph").out == "robot_controller  +*\nbringup            +\n"
 
 
 def test_a_place_without_packages(tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -582,9 +581,7 @@ def test_damaged_files_never_end_in_a_traceback(package: Path, world: World, fil
 
 ODD_WORDS = st.lists(
     st.text(max_size=8)
-    | st.sampled_from(
-        ["build", "list", "graph", "--base-paths", "--packages-select", "--event-handlers", "-h", "x" * 10_000]
-    )
+    | st.sampled_from(["build", "list", "--base-paths", "--packages-select", "--event-handlers", "-h", "x" * 10_000])
     | st.sampled_from(["--parallel-workers", "-1", "\0", "--packages-up-to", "--executor"]),
     max_size=5,
 )

@@ -133,20 +133,6 @@ def test_who_records_and_who_plays_is_in_the_graph_as_on_a_robot(terminal: Termi
     assert seen == [["/rosbag2_recorder"], ["/rosbag2_player"], []]
 
 
-def test_lost_metadata_is_written_anew(terminal: Terminal) -> None:
-    write_bag(terminal.folder / "bag", 2)
-    (terminal.folder / "bag" / "metadata.yaml").unlink()
-    assert "there is no metadata.yaml" in terminal("ros2 bag info bag")[2]
-    assert terminal("ros2 bag reindex bag") == (
-        0,
-        "",
-        "[INFO] [1800000000.000000000] [rosbag2_cpp]: Beginning reindexing bag in directory: bag\n"
-        "[INFO] [1800000000.000000000] [rosbag2_cpp]: Reindexing complete.\n",
-    )
-    assert terminal("ros2 bag info bag")[::2] == (0, "")
-    assert terminal("ros2 bag reindex bag/bag_0.mcap") == (1, "", "[ERROR] [ros2bag]: Must specify a bag directory\n")
-
-
 def test_endless_words_are_answered_in_a_short_line(terminal: Terminal) -> None:
     write_bag(terminal.folder / "bag", 2)
     endless = "x" * 10_000

@@ -20,9 +20,6 @@ from mcap.reader import make_reader
 from mcap.records import Channel, Chunk, ChunkIndex, MessageIndex, Schema, Statistics
 from mcap.stream_reader import StreamReader, breakup_chunk
 
-from turtle_lesson.ros.bags import BagError
-from turtle_lesson.ros.bags.bag import open_bag, reindex
-
 COUNT = 100
 HASH = re.compile(r"RIHS01_[0-9a-f]{64}")
 ENDLESS = {"sec": 9_223_372_036, "nsec": 854_775_807}
@@ -123,44 +120,6 @@ def test_an_empty_bag_begins_at_the_end_of_time_as_in_rosbag2(tmp_path: Path) ->
 
     BagWriter(tmp_path / "b").close()
     assert as_rosbag2_reads(metadata_of(tmp_path / "b"))["extent"] == ((1 << 63) - 1, 0, 0)
-    assert as_rosbag2_reads(metadata_of(reindex(tmp_path / "b").path))["extent"] == ((1 << 63) - 1, 0, 0)
-
-
-@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
-def test_reindexed_metadata_is_of_version_5_and_says_the_same(tmp_path: Path, storage: str) -> None:
-    from rosbags.rosbag2 import Reader
-
-    write_bag(tmp_path / "run", COUNT, storage)
-    before = as_rosbag2_reads(metadata_of(tmp_path / "run"))
-    for text in (None, "rubbish: [", "rosbag2_bagfile_information: {message_count: 7, relative_file_paths: [no.mcap]}"):
-        if text is None:
-            (tmp_path / "run" / "metadata.yaml").unlink()
-        else:
-            (tmp_path / "run" / "metadata.yaml").write_text(text)
-        assert open_bag(tmp_path / "run").damage
-        assert reindex(tmp_path / "run").damage == ""
-        found = metadata_of(tmp_path / "run")
-        assert found["version"] == 5
-        assert as_rosbag2_reads(found) == before
-        with Reader(tmp_path / "run") as reader:
-            assert reader.message_count == 2 * COUNT
-
-
-def test_of_a_bag_cut_short_the_rest_is_indexed(tmp_path: Path) -> None:
-    write_bag(tmp_path / "run", COUNT)
-    file = tmp_path / "run" / "run_0.mcap"
-    file.write_bytes(file.read_bytes()[:70_000])
-    bag = reindex(tmp_path / "run")
-    assert "it ends at byte 70000" in bag.damage  # the file itself is left alone
-    assert 0 < bag.message_count < 2 * COUNT
-    assert as_rosbag2_reads(metadata_of(tmp_path / "run"))["extent"][2] == bag.message_count
-
-
-def test_what_is_no_bag_is_not_indexed(tmp_path: Path) -> None:
-    (tmp_path / "x.mcap").write_bytes(b"rubbish")
-    with pytest.raises(BagError, match="nothing of the bag"):
-        reindex(tmp_path)
-    assert [path.name for path in tmp_path.iterdir()] == ["x.mcap"]
 
 
 # ---------------------------------------------------------------- MCAP

@@ -47,7 +47,6 @@ def test_the_underlay_has_its_programs(shop: Workshop) -> None:
     ) == [
         "tf2_ros static_transform_publisher",
         "tf2_ros tf2_echo",
-        "tf2_ros tf2_monitor",
         "tf2_tools view_frames",
         "turtlesim draw_square",
         "turtlesim mimic",
@@ -157,31 +156,6 @@ def test_the_tree_of_frames_is_drawn_as_text(shop: Workshop) -> None:
 
 def test_no_frames_are_no_tree(shop: Workshop) -> None:
     assert shop.say("ros2 run tf2_tools view_frames --wait-time 1", seconds=2)[-1].startswith("No tf data received")
-
-
-def test_the_monitor_says_how_late_transforms_come(shop: Workshop) -> None:
-    def late() -> None:
-        rclpy.init(args=[])
-        node = rclpy.create_node("late")
-        broadcaster = TransformBroadcaster(node)
-
-        def tell() -> None:
-            message = frame("world", "robot")
-            message.header.stamp = Time(nanoseconds=node.get_clock().now().nanoseconds - 250_000_000).to_msg()
-            broadcaster.sendTransform(message)
-
-        node.create_timer(0.1, tell)
-        rclpy.spin(node)
-
-    shop.world.spawn(late, name="late")
-    printed = shop.say("ros2 run tf2_ros tf2_monitor world robot", seconds=13)
-    assert printed[0].startswith("Waiting for transform world ->  robot: ") or printed[0].startswith("Gathering data")
-    assert "Chain is: world -> robot" in printed
-    assert any(
-        line.startswith("Frame: robot, published by <no authority available>, Average Delay: 0.250") for line in printed
-    )
-    assert any(line.startswith("Node: <no authority available> 10.") for line in printed)
-    assert shop.say("ros2 run tf2_ros tf2_monitor world")[0] == "TF_Monitor: usage: tf2_monitor framea frameb"
 
 
 # ---------------------------------------------------------------- broadcasters and listeners

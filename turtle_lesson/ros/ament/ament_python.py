@@ -1,8 +1,4 @@
-"""What `colcon build` makes of an `ament_python` package: its modules, its data files, and a program an entry point.
-
-Of MANIFEST.in, by which `include_package_data=True` goes (facts: setuptools' documentation), what takes files away again
-(`exclude`, `prune`) is not read.
-"""
+"""What `colcon build` makes of an `ament_python` package: its modules, its data files, and a program an entry point."""
 
 from __future__ import annotations
 
@@ -117,8 +113,6 @@ class _Build:
         patterns = patterns if isinstance(patterns, dict) else {}
         wanted = ["*.py", *_texts(patterns.get("")), *_texts(patterns.get(package))]
         found = [match for pattern in wanted for match in glob(str(folder / pattern), recursive=True)]
-        if self.setup.get("include_package_data"):
-            found += _files_in_manifest(self.found.path)
         inside = [Path(os.path.normpath(match)) for match in found]
         return sorted(
             {file for file in inside if file.is_file() and file.is_relative_to(folder) and file.suffix != ".pyc"}
@@ -291,27 +285,3 @@ def _sections(text: str) -> dict[str, list[str]]:
         elif groups and not line.startswith(("#", ";")):
             groups[list(groups)[-1]].append(line)
     return groups
-
-
-def _files_in_manifest(folder: Path) -> list[str]:
-    """The paths of the files that a folder's MANIFEST.in names; none without one."""
-    manifest = folder / "MANIFEST.in"
-    if not manifest.is_file():
-        return []
-    lines = manifest.read_text(encoding="utf-8", errors="replace").splitlines()
-    return [path for line in lines for path in _named(folder, line.partition("#")[0].split())]
-
-
-def _named(folder: Path, words: list[str]) -> list[str]:
-    match words:
-        case ["include", *patterns]:
-            places = [folder / pattern for pattern in patterns]
-        case ["recursive-include", below, *patterns]:
-            places = [folder / below / "**" / pattern for pattern in patterns]
-        case ["graft", below]:
-            places = [folder / below / "**"]
-        case ["global-include", *patterns]:
-            places = [folder / "**" / pattern for pattern in patterns]
-        case _:
-            places = []
-    return [path for place in places for path in glob(str(place), recursive=True)]

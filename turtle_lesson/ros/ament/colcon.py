@@ -1,9 +1,8 @@
-"""`colcon`: its verbs `build`, `list` and `graph`, their arguments, and what it says about wrong ones."""
+"""`colcon`: its verbs `build` and `list`, their arguments, and what it says about wrong ones."""
 
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, TextIO
 
@@ -25,7 +24,7 @@ VERBS = (
     "build", "extension-points", "extensions", "graph", "info", "list", "metadata", "test", "test-result",
     "version-check",
 )  # fmt: skip
-_HERE = ("build", "graph", "list")
+_HERE = ("build", "list")
 _INSTEAD = {
     "info": "colcon list shows the packages, and each package.xml says more about its package.",
     "test": "run a package's tests with pytest: !python -m pytest src/<package>/test",
@@ -43,7 +42,6 @@ Build the packages of a workspace, each one after those that it depends on.
 verbs:
   build   build packages and install them into install/ (colcon build -h says more)
   list    show the packages below this folder: name, place, type
-  graph   show which package depends on which
 """
 _ROS = "/opt/ros/humble"
 
@@ -113,7 +111,7 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
         stderr.write(_USAGE + said + (f"{close}\n" if close else ""))
         return 2
     if verb not in _HERE:
-        instead = _INSTEAD.get(verb, "build, list and graph are.")
+        instead = _INSTEAD.get(verb, "build and list are.")
         stderr.write(f"colcon {verb} is not available here; {instead}\n")
         return 1
     command = _Command(world, verb, stdout, stderr, (cwd or Path.cwd()).resolve())
@@ -150,8 +148,6 @@ class _Command:
         chosen = self._chosen(args, found)
         if self.verb == "list":
             return self._list(args, chosen)
-        if self.verb == "graph":
-            return self._graph(chosen)
         return self._build(args, chosen, found)
 
     def _parse(self, words: list[str]) -> argparse.Namespace:
@@ -165,16 +161,13 @@ class _Command:
             "--base-paths", nargs="*", metavar="PATH", help="folders to look for packages in (default: .)"
         )
         for option, text in _SELECTIONS.items():
-            parser.add_argument(option, nargs="*", metavar="PATTERN" if "regex" in option else "PKG_NAME", help=text)
-        parser.add_argument("--packages-start", metavar="PKG_NAME", help="this package and those that come after it")
-        parser.add_argument("--packages-end", metavar="PKG_NAME", help="this package and those that come before it")
+            parser.add_argument(option, nargs="*", metavar="PKG_NAME", help=text)
         if self.verb == "build":
             _add_build(parser)
         elif self.verb == "list":
             either = parser.add_mutually_exclusive_group()
             either.add_argument("--names-only", "-n", action="store_true", help="show only the names")
             either.add_argument("--paths-only", "-p", action="store_true", help="show only the places")
-            parser.add_argument("-g", "--topological-graph", action="store_true", help=argparse.SUPPRESS)
             parser.add_argument(
                 "-t",
                 "--topological-order",
@@ -198,7 +191,6 @@ class _Command:
 
     def _chosen(self, args: argparse.Namespace, found: list[Found]) -> list[Found]:
         """The packages that the options leave."""
-        found = [each for each in found if each.name not in set(args.packages_ignore or [])]
         names = {each.name for each in found}
         self._check_names(args, names)
         chosen = set(names)
@@ -206,25 +198,16 @@ class _Command:
             chosen &= set(args.packages_select)
         if args.packages_up_to is not None:
             chosen &= needed_by(found, args.packages_up_to)
-        if args.packages_above is not None:
-            above = set(args.packages_above)
-            chosen &= {each.name for each in found if needed_by(found, [each.name]) & above}
-        if args.packages_select_regex is not None:
-            chosen &= _matching(names, args.packages_select_regex)
-        chosen -= set(args.packages_skip or []) | _matching(names, args.packages_skip_regex or [])
-        if args.packages_start or args.packages_end:
-            ordered = [each.name for each in in_order(found)]
-            first = ordered.index(args.packages_start) if args.packages_start else 0
-            chosen &= set(ordered[first : ordered.index(args.packages_end) + 1 if args.packages_end else None])
+        chosen -= set(args.packages_skip or [])
         return [each for each in found if each.name in chosen]
 
     def _check_names(self, args: argparse.Namespace, names: set[str]) -> None:
         """Names of packages that are not there: some options need theirs, others do without."""
         there = f"There are: {', '.join(sorted(names))}."
-        for option in ("up_to", "above", "start", "end", "select", "skip"):
+        for option in ("up_to", "select", "skip"):
             given = getattr(args, f"packages_{option}") or []
             flag = f"--packages-{option.replace('_', '-')}"
-            for name in [given] if isinstance(given, str) else given:
+            for name in given:
                 if name in names:
                     continue
                 hint = f"\nHint: {did_you_mean(name, names) or there}" if names else ""
@@ -235,25 +218,10 @@ class _Command:
                     raise _Exit(1)
 
     def _list(self, args: argparse.Namespace, chosen: list[Found]) -> int:
-        if args.topological_graph:
-            obsolete = "The list options --topological-graph / -g are obsolete, instead use `colcon graph`"
-            self.err.write(f"{obsolete}\n")
-            return 1
         ordered = in_order(chosen)
         for each in ordered if args.topological_order else sorted(chosen, key=lambda each: each.name):
             line = f"{each.name}\t{each.shown}\t({each.kind})"
             self.out.write((each.name if args.names_only else each.shown if args.paths_only else line) + "\n")
-        return 0
-
-    def _graph(self, chosen: list[Found]) -> int:
-        ordered = in_order(chosen)
-        width = max((len(each.name) for each in ordered), default=0) + 2
-        for place, each in enumerate(ordered):
-            marks = ""
-            for other in ordered[place + 1 :]:  # which depends on it itself, through others, or not at all
-                through_others = each.name in needed_by(chosen, [other.name])
-                marks += "*" if each.name in other.dependencies else "." if through_others else " "
-            self.out.write(f"{each.name.ljust(width + place)}+{marks}\n")
         return 0
 
     def _build(self, args: argparse.Namespace, chosen: list[Found], found: list[Found]) -> int:
@@ -311,26 +279,14 @@ class _Command:
 _DESCRIPTIONS = {
     "build": "Build the packages below this folder, and install them into install/.",
     "list": "Show the packages below this folder.",
-    "graph": "Show which package depends on which: a * marks a direct dependency.",
 }
 
 
 _SELECTIONS = {
-    "--packages-ignore": "packages to ignore, as if they did not exist",
     "--packages-up-to": "these packages and all that they depend on",
-    "--packages-above": "these packages and all that depend on them",
     "--packages-select": "only these packages",
     "--packages-skip": "all packages except these",
-    "--packages-select-regex": "only packages whose names match",
-    "--packages-skip-regex": "all packages except those whose names match",
 }
-
-
-def _matching(names: set[str], patterns: list[str]) -> set[str]:
-    try:
-        return {name for name in names if any(re.fullmatch(pattern, name) for pattern in patterns)}
-    except re.error as error:
-        raise ColconError(f"{' '.join(patterns)[:80]} is not a regular expression: {error}") from None
 
 
 _CMAKE_ARGUMENTS = {"--cmake-args", "--ament-cmake-args", "--catkin-cmake-args"}

@@ -1,4 +1,4 @@
-"""Reading a bag: what it holds, its messages, how much of a damaged one is lost, `ros2 bag info` and `ros2 bag reindex`.
+"""Reading a bag: what it holds, its messages, how much of a damaged one is lost, `ros2 bag info`.
 
 Facts: rosbag2_py's format_bag_meta_data.cpp (info) and rosbag2_storage's yaml.hpp (metadata.yaml).
 """
@@ -22,12 +22,6 @@ METADATA = "metadata.yaml"
 LONGEST = 10_000_000
 DEEPEST = 20
 """How many bytes of metadata.yaml are read, and how deeply its lists and mappings may be nested."""
-
-VERSION = 5
-"""The format of a metadata.yaml that is written anew: that of Humble, which asks for nothing that a data file does not say."""
-
-NEVER = (1 << 63) - 1
-"""When an empty bag begins, as rosbag2 writes it."""
 
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -98,8 +92,8 @@ class Bag:
                 yield Message(topic.name, time, topic.type_name, data)
 
 
-def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
-    """Open a bag: its folder, or one of its files; with `listed_only` False all files in the folder are looked at.
+def open_bag(path: str | Path) -> Bag:
+    """Open a bag: its folder, or one of its files.
 
     A damaged bag is opened, too: `damage` says what is wrong, and what can be read is read.
     Raises BagError if there is none, or nothing of it can be read.
@@ -108,7 +102,7 @@ def open_bag(path: str | Path, *, listed_only: bool = True) -> Bag:
     if not path.exists():
         raise BagError(f"Bag path '{path}' does not exist!")
     metadata, flaws = _read_metadata(path)
-    files, missing = _files_of(path, metadata if listed_only else {})
+    files, missing = _files_of(path, metadata)
     with scanned(files) as contents:
         contents.flaws = [*flaws, *missing, *contents.flaws]
         if not contents.topics and contents.flaws:
@@ -157,41 +151,6 @@ def _files_of(path: Path, metadata: dict[str, Any]) -> tuple[list[Path], list[st
     if path.is_file():
         raise BagError(f"'{path}' is not a bag: a bag is a folder with {METADATA}, or an .mcap or .db3 file")
     raise BagError(f"'{path}' is not a bag: there is no .mcap or .db3 file in it")
-
-
-def reindex(folder: Path) -> Bag:
-    """Write the metadata.yaml of a bag's folder anew, from all data files that are in it, and return the bag.
-
-    Raises BagError if nothing there can be read.
-    """
-    from rosbags.rosbag2.metadata import dump_qos_v8
-
-    bag = open_bag(folder, listed_only=False)
-    topics = []
-    for topic in bag.topics:
-        about = {"name": topic.name, "type": topic.type_name, "serialization_format": topic.serialization}
-        about["offered_qos_profiles"] = dump_qos_v8(topic.profiles)
-        topics.append({"topic_metadata": about, "message_count": topic.count})
-    found = {
-        "version": VERSION,
-        "storage_identifier": bag.storage,
-        **_extent(bag),
-        "topics_with_message_count": topics,
-        "compression_format": "",
-        "compression_mode": "",
-        "relative_file_paths": [file.name for file in bag.files],
-        "files": [{"path": file.name, **_extent(open_bag(file))} for file in bag.files],
-    }
-    (folder / METADATA).write_text(yaml.safe_dump({"rosbag2_bagfile_information": found}, sort_keys=False), "utf-8")
-    return open_bag(folder)
-
-
-def _extent(bag: Bag) -> dict[str, Any]:
-    return {
-        "duration": {"nanoseconds": bag.duration},
-        "starting_time": {"nanoseconds_since_epoch": NEVER if bag.start is None else bag.start},
-        "message_count": bag.message_count,
-    }
 
 
 def info_text(bag: Bag) -> str:

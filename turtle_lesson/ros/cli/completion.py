@@ -48,7 +48,7 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
     if program == "colcon":
         packages = {path.parent.name for path in Path("src").glob("**/package.xml")}
         options = ["--packages-select", "--symlink-install", "--event-handlers", *packages]
-        return options if rest else ["build", "graph", "list"]
+        return options if rest else ["build", "list"]
     if program in {"jobs", "pwd"}:
         return []
     if program == "kill":

@@ -1,4 +1,4 @@
-"""`ros2 bag record`, `info`, `play` and `reindex`.
+"""`ros2 bag record`, `info` and `play`.
 
 There is no recording of the real ones in golden/: arguments, texts and formats are those of ros2bag, rosbag2_transport
 and rosbag2_py of Humble and Jazzy, as far as this simulation has them. What goes to stderr there goes to stderr here, and
@@ -255,25 +255,6 @@ def _play(args: Namespace) -> int:
     return 1 if bag.damage else 0
 
 
-@verb("bag reindex", *READER)
-def _reindex(args: Namespace) -> int:
-    """Rebuild a bag's lost metadata.yaml."""
-    from ..bags.bag import METADATA, reindex
-
-    folder = Path(args.bag_path).expanduser()
-    if not folder.is_dir():
-        return _error("Must specify a bag directory")
-    say = _logger("rosbag2_cpp")
-    say("INFO", f"Beginning reindexing bag in directory: {args.bag_path}")
-    try:
-        files.check(folder / METADATA)
-        bag = reindex(folder)
-    except (BagError, OSError) as error:
-        return _error(_reason(error))
-    say("INFO", "Reindexing complete.")
-    return _error(bag.damage) if bag.damage else 0
-
-
 def _all_words(parser: ArgumentParser) -> None:
     """Take all words as they are, also those that look like options."""
     parser.prefix_chars = ""
@@ -292,6 +273,7 @@ def _not_here(name: str, reason: str) -> None:
 _not_here("burst", "'ros2 bag play -r' plays as fast as you like")
 _not_here("convert", "record again with '-s', while the bag is played")
 _not_here("list", "there are no plugins; bags are stored as mcap or sqlite3")
+_not_here("reindex", "a bag without metadata.yaml is read all the same")
 
 
 def _logger(name: str) -> Any:

@@ -113,18 +113,11 @@ class Window:
                 self.move(self._place[0] + 1, 0)
             self._write(line)
 
-    def addnstr(self, *arguments: Any) -> None:
-        """Write so many characters of a text at most: `addnstr([y, x,] text, n[, attribute])`."""
-        at = 2 if isinstance(arguments[0], int) else 0
-        self.addstr(*arguments[:at], arguments[at][: arguments[at + 1]])
-
     def addch(self, *arguments: Any) -> None:
         """Write one character: `addch([y, x,] character[, attribute])`."""
         at = 2 if len(arguments) > 2 else 0
         character = arguments[at]
         self.addstr(*arguments[:at], chr(character & 0x1FFFFF) if isinstance(character, int) else character)
-
-    insstr = addstr
 
     def _write(self, text: str) -> None:
         line, column = self._place
@@ -150,20 +143,12 @@ class Window:
         line, column = self._place
         self._text[line] = self._text[line][:column]
 
-    def clrtobot(self) -> None:
-        """Take all that follows away."""
-        self.clrtoeol()
-        for line in range(self._place[0] + 1, self._size[0]):
-            self._text[line] = ""
-
     def refresh(self, *place: int) -> None:
         """Show the text: the lines that have changed are printed."""
         for before, now in zip(self._shown, self._text, strict=True):
             if now.strip() and now != before:
                 print(now.rstrip(), file=self._terminal.process.stdout or sys.stdout)
         self._shown = list(self._text)
-
-    noutrefresh = refresh
 
     def getmaxyx(self) -> tuple[int, int]:
         """Its lines and columns."""
@@ -172,12 +157,6 @@ class Window:
     def getyx(self) -> tuple[int, int]:
         """Where it writes next."""
         return self._place
-
-    def subwin(self, *places: int) -> Window:
-        """A window of its own: `subwin([lines, columns,] y, x)`."""
-        return Window(self._terminal, *places[:2]) if len(places) > 2 else Window(self._terminal)
-
-    derwin = subwin
 
     def __getattr__(self, name: str) -> Any:
         if name in _NO_EFFECT:

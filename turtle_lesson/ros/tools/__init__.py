@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 HERE = Path(__file__).resolve().parent
 SITE = HERE.parent / "site"
 _PROGRAMS = {
-    "tf2_ros": ("static_transform_publisher", "tf2_echo", "tf2_monitor"),
+    "tf2_ros": ("static_transform_publisher", "tf2_echo"),
     "tf2_tools": ("view_frames",),
 }
 

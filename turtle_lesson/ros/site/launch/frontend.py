@@ -115,8 +115,9 @@ class Entity:
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """An attribute's value, or the nested entities of that name if `data_type` is `List[Entity]`.
 
-        The type is bool, int, float, str, a list of one of these, or None for YAML's rules; with `can_be_str`, text, which
-        may have substitutions in it, is as good. Raises AttributeError if it is absent and not optional, TypeError for another type.
+        The type is bool, int, float, str, a list of one of these, or None for YAML's rules; with `can_be_str`, text,
+        which may have substitutions in it, is as good. Raises AttributeError if it is absent and not optional, and
+        TypeError for another type.
         """
         is_nested = check_is_list_entity(data_type)
         kind, given = list(self._given().items())[0 if is_nested else -1]
