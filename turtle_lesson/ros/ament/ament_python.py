@@ -27,16 +27,13 @@ def build_ament_python(found: Found, environment: Environment) -> Outcome:
     try:
         return _Build(found, environment).run()
     except SetupError as error:
-        return Outcome(1, with_hint(str(error), [_setup_hint(found, str(error))]), seconds=0.3)
+        text, where = str(error), shown_path(str(found.path / "setup.py"))
+        hint = "" if "setup.cfg" in text else f"In {where}."
+        if "SyntaxError" in text:
+            hint = f"In {where}: look at this line and at the end of the one before: is a comma or a bracket missing?"
+        return Outcome(1, with_hint(text, [hint]), seconds=0.3)
     except BuildFailure as failure:
         return Outcome(failure.code, with_hint(failure.text, [failure.hint]), seconds=failure.seconds)
-
-
-def _setup_hint(found: Found, text: str) -> str:
-    where = shown_path(str(found.path / "setup.py"))
-    if "SyntaxError" in text:
-        return f"In {where}: look at this line and at the end of the one before: is a comma or a bracket missing?"
-    return "" if "setup.cfg" in text else f"In {where}."
 
 
 class _Build:

@@ -257,30 +257,23 @@ class _Builder:
         folder = self.plan.log / f"build_{stamp}"
         for name, outcome in self.log.items():
             stdout = "".join(f"{line}\n" for line in outcome.stdout)
-            for file, text in (
-                ("stdout", stdout),
-                ("stderr", outcome.stderr),
-                ("stdout_stderr", stdout + outcome.stderr),
-            ):
+            logs = {"stdout": stdout, "stderr": outcome.stderr, "stdout_stderr": stdout + outcome.stderr}
+            for file, text in logs.items():
                 files.save(folder / name / f"{file}.log", text)
         summary = "".join(f"{name}: exit code {outcome.code}\n" for name, outcome in self.log.items())
         files.save(folder / "logger_all.log", summary)
-        for name in ("latest", "latest_build"):
-            _point(self.plan.log / name, folder.name)
+        for link in (self.plan.log / "latest", self.plan.log / "latest_build"):
+            try:
+                link.unlink(missing_ok=True)
+                link.symlink_to(folder.name)
+            except OSError:  # a computer without links
+                link.write_text(folder.name, encoding="utf-8")
 
 
 def _listed(word: str, names: list[str]) -> str:
     """`without talker, listener`, of many names the first ones; nothing without names."""
     more = f" and {len(names) - 8} more" if len(names) > 8 else ""
     return f"{word} {', '.join(names[:8])}{more}" if names else ""
-
-
-def _point(link: Path, target: str) -> None:
-    try:
-        link.unlink(missing_ok=True)
-        link.symlink_to(target)
-    except OSError:  # a computer without links
-        link.write_text(target, encoding="utf-8")
 
 
 def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | None]]) -> Registry:

@@ -126,22 +126,16 @@ def _remove(world: World, install: Path, name: str) -> None:
     for each in [each for each in overlays(world) if (each.install, each.package.name) == (install, name)]:
         overlays(world).remove(each)
         world.packages.remove(each.package)
-        _restore(each)
+        name, is_known = each.package.name, each.package.name in registry.packages()
+        if each.package.interfaces and is_known and registry.package(name).directory == each.package.share:
+            registry.remove(name)  # unless somebody else has put another in its place
+            if each.hidden is not None:
+                registry.add(name, *each.hidden)
         for path in each.paths:
             shared = any(path in other.paths for other in overlays(world))  # in a merged install folder
             if str(path) in sys.path and not shared:
                 sys.path.remove(str(path))
         forget_below([each.package.prefix or each.install])
-
-
-def _restore(each: _Overlay) -> None:
-    if not each.package.interfaces or each.package.name not in registry.packages():
-        return
-    if registry.package(each.package.name).directory != each.package.share:
-        return  # somebody else has put another in its place
-    registry.remove(each.package.name)
-    if each.hidden is not None:
-        registry.add(each.package.name, *each.hidden)
 
 
 def remove_all(world: World) -> None:

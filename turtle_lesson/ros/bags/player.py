@@ -58,28 +58,24 @@ class Player:
     def __init__(self, node: Any, bag: Bag, how: Playback, say: Say) -> None:
         self._bag = bag
         self._how = how
-        self._say = say
         self._unreadable: dict[str, int] = {}
         self.published = 0
         self._publishers: dict[tuple[str, str], Any] = {}
         for topic in bag.topics:
-            if not how.topics or topic.name in how.topics:
-                self._offer(node, topic)
+            if how.topics and topic.name not in how.topics:
+                continue
+            try:
+                name, profile = how.remaps.get(topic.name, topic.name), offer_of(topic.profiles)
+                publisher = node.create_publisher(_class_of(topic), name, profile)
+                self._publishers[topic.name, topic.type_name] = publisher
+            except Exception as error:
+                say("WARN", f"Ignoring a topic '{topic.name}', reason: {error}")
         self._simulation = node._ros_simulation
         self._next: float = inf  # when to say next on /clock what time it is in the bag
         if how.clock:
             from rosgraph_msgs.msg import Clock
 
             self._clock = node.create_publisher(Clock, "/clock", 1)
-
-    def _offer(self, node: Any, topic: BagTopic) -> None:
-        try:
-            message_class = _class_of(topic)
-            name = self._how.remaps.get(topic.name, topic.name)
-            profile = offer_of(topic.profiles)
-            self._publishers[topic.name, topic.type_name] = node.create_publisher(message_class, name, profile)
-        except Exception as error:
-            self._say("WARN", f"Ignoring a topic '{topic.name}', reason: {error}")
 
     def play(self, until: int | None = None) -> bool:
         """Play the bag; False if the virtual time `until` (ns) came first."""

@@ -100,25 +100,23 @@ def install(shell: Any) -> None:
     matchers.append(command_matcher)
 
 
+_COMMAND = re.compile(rf"\s*%?(?:terminal\s+)?(?:{'|'.join(COMMANDS)})\s+(?![-+*/%&|^@]?=)")
+"""The beginning of a line with a command's name and a blank, with no `=` or the like after it."""
+
+
 @context_matcher()
 def command_matcher(context: CompletionContext) -> SimpleMatcherResult:
     """What IPython asks of the line at the cursor; a line that is no command is left to Python."""
     above = context.full_text.split("\n")[: context.cursor_line]
     text = "\n".join([*above, context.text_until_cursor.rpartition("\n")[2]])
     line = re.sub(r"\\\n\s*", " ", text).rpartition("\n")[2]
-    command = next((line[at:] for at in (0, *inner_places(line)) if _reads_like_a_command(line[at:])), None)
+    command = next((line[at:] for at in (0, *inner_places(line)) if _COMMAND.match(line[at:])), None)
     if command is None:
         return {"completions": []}
     command = command.strip(" \t%").removeprefix("terminal ") + " " * command[-1:].isspace()
     begun = "" if command[-1:].isspace() else command.split()[-1]
     found = [SimpleCompletion(text=word, type="command") for word in complete(current_world(), command)]
     return {"completions": found, "suppress": True, "matched_fragment": begun}
-
-
-def _reads_like_a_command(line: str) -> bool:
-    """Whether a line begins with a command's name and a blank, with no `=` or the like after it."""
-    found = re.match(r"\s*%?(?:terminal\s+)?(\w+)\s+(?![-+*/%&|^@]?=)", line)
-    return found is not None and found[1] in COMMANDS
 
 
 def paths(begun: str, *, folders_only: bool = False) -> list[str]:

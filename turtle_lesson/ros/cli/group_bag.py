@@ -34,18 +34,11 @@ def existing_path(text: str) -> str:
     with suppress(OSError, ValueError, RuntimeError):  # no path at all: far too long, or with a zero byte in it
         if Path(text).expanduser().exists():
             return text
-    raise ArgumentTypeError(f"Bag path '{text}' does not exist!{_bags_here(text)}")
-
-
-def _bags_here(text: str) -> str:
-    """What perhaps was meant: the bags beside the one that is not there."""
-    try:
-        folder = Path(text).expanduser().parent
-        bags = [path.parent.name for path in folder.glob("*/metadata.yaml")]
-    except (OSError, ValueError):
-        return ""
-    hint = did_you_mean(Path(text).expanduser().name, bags)
-    return f" {hint}" if hint else ""
+    hint = ""
+    with suppress(OSError, ValueError):
+        path = Path(text).expanduser()
+        hint = did_you_mean(path.name, [bag.parent.name for bag in path.parent.glob("*/metadata.yaml")])
+    raise ArgumentTypeError(f"Bag path '{text}' does not exist! {hint}".rstrip())
 
 
 def finite(text: str) -> float:
@@ -132,7 +125,7 @@ def _record(args: Namespace) -> int:
     say = _logger("rosbag2_recorder")
     seconds = stretch_of(args)
     try:
-        names = checked_names(_topics_of(args))
+        names = checked_names([*args.topics, *args.more_topics])
         selection = Selection(
             names, args.regex, args.exclude, args.include_hidden_topics, args.include_unpublished_topics
         )
@@ -154,13 +147,9 @@ def _record(args: Namespace) -> int:
     return 0
 
 
-def _topics_of(args: Namespace) -> list[str]:
-    return [*args.topics, *args.more_topics]
-
-
 def _contradiction(args: Namespace) -> str:
     """Why these arguments cannot go together, or nothing."""
-    topics = _topics_of(args)
+    topics = [*args.topics, *args.more_topics]
     if (args.all and (topics or args.regex)) or (topics and args.regex):
         return "Must specify only one option out of topics, --regex or --all"
     if not (args.all or topics or args.regex):
@@ -281,16 +270,13 @@ def _logger(name: str) -> Any:
     from rclpy.logging import get_logger
 
     logger = get_logger(name)
-
-    def say(severity: str, text: str) -> None:
-        if severity == "INFO":
-            logger.info(text)
-        elif severity == "WARN":  # on a line of its own: a logger's line has one severity forever
-            logger.warning(text)
-        else:
-            logger.error(text)
-
-    return say
+    # each on a line of its own: a logger's line has one severity forever
+    methods = {
+        "INFO": lambda text: logger.info(text),
+        "WARN": lambda text: logger.warning(text),
+        "ERROR": lambda text: logger.error(text),
+    }
+    return lambda severity, text: methods[severity](text)
 
 
 def _reason(error: BagError | OSError) -> str:

@@ -142,14 +142,9 @@ TYPE = arg("type", "full name of the interface, such as geometry_msgs/msg/Twist"
 
 def _of_kind(kind: str) -> dict[str, list[str]]:
     """All interfaces of a kind, by their packages."""
-    import rosidl_runtime_py as api
+    from rosidl_runtime_py import get_interfaces
 
-    getters = {
-        "msg": api.get_message_interfaces,
-        "srv": api.get_service_interfaces,
-        "action": api.get_action_interfaces,
-    }
-    return getters[kind]()
+    return get_interfaces(folders=(kind,))
 
 
 @verb("interface list", *KINDS, in_cell=True)
@@ -170,10 +165,7 @@ def _packages(args: Namespace) -> None:
         print(package)
 
 
-_PACKAGE = arg("package_name", "name of the package")
-
-
-@verb("interface package", _PACKAGE, in_cell=True)
+@verb("interface package", PACKAGE, in_cell=True)
 def _package(args: Namespace) -> None:
     """List the interfaces of a package."""
     from rosidl_runtime_py import get_interfaces

@@ -139,16 +139,13 @@ class Errors(_Stream):
     def write(self, text: str) -> int:
         """Print a text, made fit to be printed."""
         for line in text.splitlines(keepends=True) if "\n" in text else [text]:
-            self._write_line(line)
+            end = "\n" if line.endswith("\n") else ""
+            shown = printable(line.removesuffix("\n")[:LONGEST])
+            if self._column < LONGEST:
+                self._target.write(shown if self._column + len(line) <= LONGEST else f"{shown}…")
+            self._target.write(end)
+            self._column = 0 if end else self._column + len(line)
         return len(text)
-
-    def _write_line(self, line: str) -> None:
-        end = "\n" if line.endswith("\n") else ""
-        shown = printable(line.removesuffix("\n")[:LONGEST])
-        if self._column < LONGEST:
-            self._target.write(shown if self._column + len(line) <= LONGEST else f"{shown}…")
-        self._target.write(end)
-        self._column = 0 if end else self._column + len(line)
 
 
 def lasting(stream: Any, simulation: Simulation) -> BorrowedStream:

@@ -90,6 +90,10 @@ def echo(args: Namespace) -> None:
         if done is not None and not done.done():
             done.set_result(True)
 
+    def print_lost(event: Any) -> None:
+        counts = f"total count change:{event.total_count_change}\n\ttotal count: {event.total_count}"
+        print(f"A message was lost!!!\n\t{counts}", end="---\n")
+
     with direct_node(args) as node:
         profile = profile_of(args, PRESET) if is_chosen(args) else matching_profile(node, args.topic_name, PRESET)
         kind = class_of(args.message_type, "msg") if args.message_type else class_of_topic(node, args.topic_name)
@@ -97,13 +101,8 @@ def echo(args: Namespace) -> None:
             print(not_published(args.topic_name))
             hint = suggest(expanded(node, args.topic_name), topics(node, include_hidden=True))
             raise CommandError("Could not determine the type for the passed topic", hint)
-        lost = None if args.no_lost_messages else _say_what_was_lost
+        lost = None if args.no_lost_messages else print_lost
         listen(node, args.topic_name, kind, print_message, profile, args, raw=args.raw, done=done, lost=lost)
-
-
-def _say_what_was_lost(event: Any) -> None:
-    counts = f"total count change:{event.total_count_change}\n\ttotal count: {event.total_count}"
-    print(f"A message was lost!!!\n\t{counts}", end="---\n")
 
 
 def part_of(message: Any, path: list[str]) -> Any:

@@ -46,9 +46,7 @@ def attribute_advice(error: BaseException) -> str:
     """A sentence about a name that is not there."""
     if isinstance(error, AttributeError):
         return _attribute(error)
-    if isinstance(error, NameError):
-        return _variable(error)
-    return ""
+    return _variable(error) if isinstance(error, NameError) else ""
 
 
 def _attribute(error: AttributeError) -> str:
@@ -318,8 +316,9 @@ def _no_module(name: str) -> str:
         return FROM_ROS_1[top]
     if top in _DEVICES:
         return f"{top} is installed separately from ROS 2 ({_DEVICES[top][1]}). {_DEVICES[top][0]}"
-    if top in _FOR_ROBOTS_TOO:
-        return f"{top} is a Python package that works here, too, once it is installed: {_pip_install(top)}."
+    if top == "xacro":
+        install = "pip install xacro (in a notebook: %pip install xacro)"
+        return f"xacro is a Python package that works here, too, once it is installed: {install}."
     if missing := missing_module(top):
         return missing
     if rest and (parent := module_left_out(name) or _newer(top, name) or _parent(name)):
@@ -327,10 +326,6 @@ def _no_module(name: str) -> str:
     site = sorted(path.name for path in (Path(__file__).parents[1] / "site").iterdir() if path.is_dir())
     close = difflib.get_close_matches(top, [*registry.packages(), *site], n=1, cutoff=0.8)
     return f"Did you mean '{close[0]}'?" if close else _of_ones_own(top)
-
-
-def _pip_install(name: str) -> str:
-    return f"pip install {_ON_PYPI.get(name, name)} (in a notebook: %pip install {_ON_PYPI.get(name, name)})"
 
 
 def _parent(name: str) -> str:
@@ -402,9 +397,6 @@ _DEVICES = {
     "customtkinter": (SCREEN, "pip install customtkinter"), "wx": (SCREEN, "pip install wxPython"),
 }  # fmt: skip
 """Modules that read keys or show windows: what stands in for that here, and how they are installed on a robot."""
-
-_FOR_ROBOTS_TOO = ("xacro",)
-"""Packages of PyPI that programs for robots use, and that need nothing of ROS's own to work."""
 
 _ON_PYPI = {"cv2": "opencv-python", "PIL": "pillow", "yaml": "pyyaml", "serial": "pyserial", "sklearn": "scikit-learn"}
 

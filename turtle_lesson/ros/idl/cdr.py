@@ -19,7 +19,7 @@ from .model import FieldType
 from .names import STRINGS
 
 if TYPE_CHECKING:
-    from rosbags.typesys.store import Typestore
+    pass
 
 
 # What DDS puts into a message without fields (rosidl_generator_c, EMPTY_STRUCTURE_REQUIRED_MEMBER_NAME).
@@ -61,11 +61,12 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
 
 
 @cache
-def _store() -> Typestore:
+def _store() -> Any:
     from rosbags.typesys.store import Typestore
 
-    store = Typestore()
-    register_wide_strings(store)
+    store: Any = Typestore()
+    store.fielddefs[WIDE] = ((), [("units", wide_string())])
+    store.types[WIDE] = from_units
     return store
 
 
@@ -129,18 +130,14 @@ def _shown(value: Any, type_: FieldType) -> Any:
     if type_.is_bounded and type_.size is not None and len(value) > type_.size:
         raise ValueError(f"{len(value)} elements in a sequence of at most {type_.size}")
     if not type_.is_primitive or type_.base in STRINGS:
-        return _shown_elements(value, type_)
+        if not type_.is_primitive:
+            return [_portrait(each) for each in value]
+        return [SimpleNamespace(units=to_units(each)) for each in value] if type_.base == "wstring" else list(value)
     if type_.base == "byte":
         return numpy.frombuffer(b"".join(value), "uint8")
     if type_.base == "bool":
         return numpy.array(list(value), "bool")
     return numpy.asarray(value, numpy_name(type_.base)).ravel()
-
-
-def _shown_elements(values: Any, type_: FieldType) -> list[Any]:
-    if not type_.is_primitive:
-        return [_portrait(each) for each in values]
-    return [SimpleNamespace(units=to_units(each)) for each in values] if type_.base == "wstring" else list(values)
 
 
 def _maker(message_class: Any) -> Callable[..., Any]:
@@ -223,12 +220,6 @@ def wide_string() -> Any:
     from rosbags.interfaces import Nodetype
 
     return Nodetype.SEQUENCE, (base("uint32"), 0)
-
-
-def register_wide_strings(store: Any) -> None:
-    """Make elements of arrays of wide strings known to a store of rosbags."""
-    store.fielddefs[WIDE] = ((), [("units", wide_string())])
-    store.types[WIDE] = from_units
 
 
 def to_units(text: str) -> Any:

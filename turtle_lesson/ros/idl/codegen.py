@@ -205,8 +205,10 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
     elif element_class is str:
         copier = message.copy_texts
     objects: dict[str, Any] = {check: checks.assigned(check_function), copy: copier(check_function)}
+    element_weight = 1
     if message_class:
         objects[class_variable(message_class)] = message_class
+        element_weight = weight_of(message_class._KINDS)  # type: ignore[attr-defined]
     return Kind(
         name=member.name,
         check=check,
@@ -214,13 +216,8 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
         copy=f"{copy}({{value}})",
         element_class=message_class,
         objects=objects,
-        weight=_list_weight(type_, message_class),
+        weight=(type_.size or 0) * element_weight if type_.is_fixed else 1,
     )
-
-
-def _list_weight(type_: FieldType, message_class: type | None) -> int:
-    element = weight_of(message_class._KINDS) if message_class else 1  # type: ignore[attr-defined]
-    return (type_.size or 0) * element if type_.is_fixed else 1
 
 
 def _fresh_list(member: Field, message_class: type | None) -> str:
@@ -402,8 +399,8 @@ def _wire_copy(name: str, kinds: tuple[Kind, ...]) -> Lines:
         "",
         "def _wire_copy(self):",
         '    """Copy that shares nothing, with numbers as transport leaves them."""',
+        f"    new = _new({name})",
     ]
-    lines.append(f"    new = _new({name})")
     packed: list[tuple[str, str]] = []
     lines += _indent(_copy_fields("new", "self", kinds, packed))
     if packed:

@@ -119,9 +119,13 @@ class _Builder:
             check_weight(name, weight_of(kinds))
         except InvalidDefinition as error:
             raise error.locate(interface=definition.full_name, file=definition.file) from None
-        if definition.constants:
-            constants = tuple(_built_constant(definition, constant) for constant in definition.constants)
-            definition = replace(definition, constants=constants)
+        constants = []
+        for constant in definition.constants:
+            try:
+                constants.append(replace(constant, value=built_value(constant.type, constant.value)))
+            except InvalidDefinition as error:
+                raise _located(error, definition, constant) from None
+        definition = replace(definition, constants=tuple(constants))
         self._globals[f"_kinds_{name}"] = kinds
         self._globals[f"_slot_types_{name}"] = tuple(slot_type(member.type) for member in definition.fields)
         for kind in _with_inner(kinds):
@@ -129,14 +133,16 @@ class _Builder:
         for kind in kinds:
             if not kind.shares:
                 self._globals[f"_unset_{name}_{kind.name}"] = message.Unset(_signature_default(kind))
-        self._add_packing(sum(kind.is_float32 for kind in _with_inner(kinds)))
+        if rounded := sum(kind.is_float32 for kind in _with_inner(kinds)):
+            packing = Struct(f"{rounded}f")  # rounds them to float32
+            self._globals.update({f"_pack_{rounded}": packing.pack, f"_unpack_{rounded}": packing.unpack})
         self._run(definition, message_source(definition, kinds))
 
     def add_service(self, definition: ServiceDefinition) -> None:
         """Add request, response and the class that holds both."""
         for part in definition.parts():
             self.add_message(part)
-        self._add_service_class(definition)
+        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
 
     def add_action(self, definition: ActionDefinition) -> None:
         """Add goal, result, feedback, the class that holds them, and what carries them (`Impl`)."""
@@ -144,7 +150,9 @@ class _Builder:
             self.add_message(part)
         name = definition.name
         for service in (f"{name}_SendGoal", f"{name}_GetResult"):
-            self._add_carrier(definition, service)
+            request, response = (self._globals[f"{service}_{part}"]._DEFINITION for part in ("Request", "Response"))
+            carrier = ServiceDefinition(definition.package, service, request, response, "", definition.file, "action")
+            self._add_wrapper(carrier, {"Request": request.name, "Response": response.name})
         impl = {
             "SendGoalService": self._globals[f"{name}_SendGoal"],
             "GetResultService": self._globals[f"{name}_GetResult"],
@@ -163,13 +171,6 @@ class _Builder:
         linecache.cache[self._file] = (len(self._source), None, lines, self._file)
         self._source = ""  # the cache has it
         return self._module
-
-    def _add_service_class(self, definition: ServiceDefinition) -> None:
-        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
-
-    def _add_carrier(self, action: ActionDefinition, name: str) -> None:
-        request, response = (self._globals[f"{name}_{part}"]._DEFINITION for part in ("Request", "Response"))
-        self._add_service_class(ServiceDefinition(action.package, name, request, response, "", action.file, "action"))
 
     def _add_wrapper(self, definition: Definition, parts: dict[str, str]) -> None:
         self._run(definition, wrapper_source(definition, parts))
@@ -201,12 +202,6 @@ class _Builder:
             return own
         return self._resolve(type_)
 
-    def _add_packing(self, count: int) -> None:
-        """Provide the packing that rounds `count` numbers to float32, if any."""
-        if count:
-            packing = Struct(f"{count}f")
-            self._globals.update({f"_pack_{count}": packing.pack, f"_unpack_{count}": packing.unpack})
-
 
 def _with_inner(kinds: tuple[Kind, ...]) -> Iterator[Kind]:
     """All fields, those of messages that are written out included."""
@@ -222,13 +217,6 @@ def _signature_default(kind: Kind) -> str:
         if kind.message_class
         else kind.fresh.replace("_numpy_", "numpy.").replace("_array('", "array('")
     )
-
-
-def _built_constant(definition: MessageDefinition, constant: Constant) -> Constant:
-    try:
-        return replace(constant, value=built_constant(constant))
-    except InvalidDefinition as error:
-        raise _located(error, definition, constant) from None
 
 
 def _located(error: InvalidDefinition, definition: MessageDefinition, member: Field | Constant) -> InvalidDefinition:
@@ -262,11 +250,6 @@ def built_default(field: Field) -> Value | None:
     if isinstance(field.default, tuple):
         return tuple(built_value(base, each, field.type.string_bound) for each in field.default)
     return None if field.default is None else built_value(base, field.default, field.type.string_bound)
-
-
-def built_constant(constant: Constant) -> Plain:
-    """A constant's value as the built class has it; InvalidValue where a build would fail on it."""
-    return built_value(constant.type, constant.value)
 
 
 def built_value(base: str, value: Plain, string_bound: int | None = None) -> Plain:

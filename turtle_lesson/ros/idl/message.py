@@ -84,29 +84,17 @@ def refuse_arguments(message_class: type, unknown: Iterable[str]) -> None:
 
 def copy_messages(check: Callable[[Any], Any]) -> Callable[[Any], list[Any]]:
     """Copier of a field that holds several messages; what was slipped in since the check is refused here."""
-
-    def copy(value: Any) -> list[Any]:
-        return [each._wire_copy() for each in check(value)]
-
-    return copy
+    return lambda value: [each._wire_copy() for each in check(value)]
 
 
 def copy_texts(check: Callable[[Any], Any]) -> Callable[[Any], list[str]]:
     """Copier of a field that holds several strings."""
-
-    def copy(value: Any) -> list[str]:
-        return [plain_text(each) for each in check(value)]
-
-    return copy
+    return lambda value: [plain_text(each) for each in check(value)]
 
 
 def copy_values(check: Callable[[Any], Any]) -> Callable[[Any], list[Any]]:
     """Copier of a field that holds several booleans or bytes."""
-
-    def copy(value: Any) -> list[Any]:
-        return list(check(value))
-
-    return copy
+    return lambda value: list(check(value))
 
 
 # -- slot types ---------------------------------------------------------------------------------------------------

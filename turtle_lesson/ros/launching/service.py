@@ -115,20 +115,18 @@ class LaunchService:
         with self._inside():
             try:
                 self.visit(entity)
-                self._warn_of_what_follows()
+                for (
+                    handler
+                ) in self.context._event_handlers:  # what waits for the end, say, of a program that is left out
+                    target: Any = getattr(handler, "_target", None)
+                    emits = all(isinstance(each, EmitEvent) for each in handler.describe()[1])
+                    if target in self._left_out and not emits:
+                        what = f"{type(handler).__name__} of {self._left_out[target]}"
+                        self.warn_once(f"{what} is left out, too, with what it starts")
                 self._settle()
             except LaunchError:
                 self.shut_down("an error in the launch file")
                 raise
-
-    def _warn_of_what_follows(self) -> None:
-        """Name what waits for the end, say, of a program that is left out, unless all that it does is to emit events."""
-        for handler in self.context._event_handlers:
-            target: Any = getattr(handler, "_target", None)
-            if target in self._left_out and not all(isinstance(each, EmitEvent) for each in handler.describe()[1]):
-                self.warn_once(
-                    f"{type(handler).__name__} of {self._left_out[target]} is left out, too, with what it starts"
-                )
 
     def carry_on(self, function: Callable[[], None]) -> None:
         """Do something that came later; an error in it ends the launch and is printed, as on a robot."""

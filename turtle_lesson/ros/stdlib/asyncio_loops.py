@@ -159,18 +159,10 @@ def _refused(name: str) -> Callable[..., Any]:
 
 
 for _name in (
-    *("add_reader", "add_writer", "connect_read_pipe", "connect_write_pipe", "create_connection"),
-    *("create_datagram_endpoint", "create_server", "create_unix_connection", "create_unix_server", "remove_reader"),
-    *(
-        "remove_writer",
-        "sock_accept",
-        "sock_connect",
-        "sock_recv",
-        "sock_sendall",
-        "subprocess_exec",
-        "subprocess_shell",
-    ),
-):
+    "add_reader", "add_writer", "connect_read_pipe", "connect_write_pipe", "create_connection", "create_datagram_endpoint",
+    "create_server", "create_unix_connection", "create_unix_server", "remove_reader", "remove_writer", "sock_accept",
+    "sock_connect", "sock_recv", "sock_sendall", "subprocess_exec", "subprocess_shell",
+):  # fmt: skip
     setattr(VirtualEventLoop, _name, _refused(_name))
 
 

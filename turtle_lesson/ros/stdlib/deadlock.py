@@ -100,18 +100,14 @@ def _nobody_can_act(process: Process, this: Strand | None) -> bool:
 
     Those who send signals, and the notebook's cells, are somebody, too.
     """
-    if any(_is_programs_own(handler) for handler in process.signal_handlers.values()):
+    names = [getattr(getattr(each, "func", each), "__qualname__", "") for each in process.signal_handlers.values()]
+    if any(name != "Runner._on_sigint" for name in names):  # set by the program, and not by `asyncio.run`
         return False
     if process.is_notebook and process.simulation.driven is None:
         return False
     if any(_is_held_outside(strand) for strand in process.strands if not strand.dead):
         return False
     return all(strand is this or _waits_in_vain(strand) for strand in process.strands)
-
-
-def _is_programs_own(handler: Any) -> bool:
-    """Whether this handler of a signal was set by the program, and not by `asyncio.run`."""
-    return getattr(getattr(handler, "func", None), "__qualname__", "") != "Runner._on_sigint"
 
 
 def _is_held_outside(strand: Strand) -> bool:

@@ -121,7 +121,11 @@ class VirtualLock:
 
     def _acquire_outside(self, timeout: float) -> bool:
         """Wait where no simulated process runs: in a cell by running the simulation, in another thread really."""
-        self._refuse_if_closed()
+        if self.owner is not None and self.owner.simulation.closed:
+            raise WorldClosed(
+                "this would wait for a thread of a world that was closed by a later start(), and so forever: make new "
+                "locks, queues and threads in the new world"
+            )
         notebook = notebook_here()
         if notebook is None:
             return self._lock.acquire(True, timeout)
@@ -129,13 +133,6 @@ class VirtualLock:
         if taken:
             self.owner = None  # the cell has it now, and not the strand that waited for the cell
         return taken
-
-    def _refuse_if_closed(self) -> None:
-        if self.owner is not None and self.owner.simulation.closed:
-            raise WorldClosed(
-                "this would wait for a thread of a world that was closed by a later start(), and so forever: make new "
-                "locks, queues and threads in the new world"
-            )
 
     def _at_fork_reinit(self) -> None:
         self._lock._at_fork_reinit()  # type: ignore[attr-defined]

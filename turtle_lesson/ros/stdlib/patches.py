@@ -153,12 +153,7 @@ TABLE: tuple[Patch, ...] = (
     _method("threading:Condition", "wait", locks.condition_wait, WAITS),
     _function("threading", locks.peek, PEEK, "_time"),
     _function("queue", locks.peek, PEEK, "time"),
-    Patch(
-        "queue",
-        "SimpleQueue",
-        lambda real: facade(real, locks.VirtualSimpleQueue),
-        "Python's is made in C, on a lock of its own",
-    ),
+    Patch("queue", "SimpleQueue", lambda real: facade(real, locks.VirtualSimpleQueue), "Python's is made in C"),
     *(
         _method("threading:Thread", name, function, THREAD)
         for name, function in (
@@ -174,22 +169,12 @@ TABLE: tuple[Patch, ...] = (
     _in_process("_thread", threads.start_new_thread, THREAD),
     Patch("_threading_local", "current_thread", _now("threading", "current_thread"), "local values go by strand"),
     Patch("_threading_local", "RLock", _now("threading", "RLock"), WAITS),
-    Patch(
-        "threading",
-        "local",
-        lambda real: facade(real, ownership.VirtualLocal),
-        "Python's is made in C, and goes by real threads",
-    ),
+    Patch("threading", "local", lambda real: facade(real, ownership.VirtualLocal), "Python's goes by real threads"),
     _method(
         "concurrent.futures.thread:ThreadPoolExecutor", "__init__", threads.init, "eight threads on every computer"
     ),
     _function("concurrent.futures.thread:ThreadPoolExecutor", threads.next_number, NAMES, "_counter"),
-    Patch(
-        "concurrent.futures.thread",
-        "_global_shutdown_lock",
-        threads.NotInStrands,
-        "a strand must not wait for another one with it",
-    ),
+    Patch("concurrent.futures.thread", "_global_shutdown_lock", threads.NotInStrands, "no strand must wait with it"),
     Patch(
         "concurrent.futures.thread", "_threads_queues", threads.Queues, "Python would join simulated threads at exit"
     ),
@@ -243,11 +228,7 @@ class LateFinder:
 FINDERS: tuple[tuple[Callable[[], object], Callable[[], object], Stage], ...] = (
     (install_finder, uninstall_finder, Stage.IMPORT),
     (lambda: sys.meta_path.insert(0, LateFinder), lambda: sys.meta_path.remove(LateFinder), Stage.WORLD),
-    (
-        lambda: sys.meta_path.insert(0, ProgramFinder),
-        lambda: sys.meta_path.remove(ProgramFinder),
-        Stage.WORLD,
-    ),
+    (lambda: sys.meta_path.insert(0, ProgramFinder), lambda: sys.meta_path.remove(ProgramFinder), Stage.WORLD),
 )
 """How entries of `sys.meta_path` are added and removed, and when: one makes the modules of message packages when they are
 imported, one has rows wait for their module, and one gives each program modules of its own."""

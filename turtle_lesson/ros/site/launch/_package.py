@@ -42,15 +42,12 @@ def complete_package(package: str, modules: Mapping[str, str] = MappingProxyType
         module = sys.modules[place]
         for name in getattr(module, "__all__", ()):
             value = vars(module)[name]
-            path = f"{place}.{_snake_case(name)}"
+            snake_case = re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
+            path = f"{place}.{snake_case}"
             has_none = isinstance(value, type) and (value.__module__ in (place, path) or "._" in value.__module__)
             if has_none and path not in files:
                 _put(path, name, value, files)
         vars(module)["__getattr__"] = partial(_missing, module, missing[place])
-
-
-def _snake_case(name: str) -> str:
-    return re.sub(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 def _put(path: str, name: str, value: Any, files: list[str]) -> None:

@@ -132,11 +132,11 @@ class Node(ExecuteProcess):
         """
         if self.__in_package is not None:
             self.__in_package.target(context)
-        self._ros_words = [
-            *self._name_words(context),
-            *self._parameter_words(context),
-            *self._remapping_words(context),
-        ]
+        self._ros_words = [*self._name_words(context), *self._parameter_words(context)]
+        own = [(text_of(context, source), text_of(context, target)) for source, target in self.__remappings]
+        self.expanded_remapping_rules = [*context.launch_configurations.get("ros_remaps", []), *own]
+        for source, target in self.expanded_remapping_rules:
+            self._ros_words += ["-r", f"{source}:={target}"]
         return super().execute(context)
 
     def _name_words(self, context: LaunchContext) -> list[str]:
@@ -183,14 +183,11 @@ class Node(ExecuteProcess):
         text = yaml.safe_dump({"/**": {"ros__parameters": {name: value}}}, allow_unicode=True)
         return ["--params-file", str(file_for_this_launch(self, "parameter.yaml", text))]
 
-    def _remapping_words(self, context: LaunchContext) -> list[str]:
-        own = [(text_of(context, source), text_of(context, target)) for source, target in self.__remappings]
-        self.expanded_remapping_rules = [*context.launch_configurations.get("ros_remaps", []), *own]
-        return [word for source, target in self.expanded_remapping_rules for word in ("-r", f"{source}:={target}")]
-
     def _find_program(self, context: LaunchContext) -> Program:
         argv = [*self.process_description.final_cmd, *self._ros_words]
-        shown = " ".join([shown_path(argv[0]), *[_shown_word(word) for word in argv[1:] if word.strip()]])
+        # a file made for this launch lies elsewhere in every run
+        words = [re.sub(r".*/launch_params_\w+/", "launch_params/", word) for word in argv[1:] if word.strip()]
+        shown = " ".join([shown_path(argv[0]), *words])
         if self.__in_package is not None:
             return Program(self.__in_package.target(context), argv, shown)
         path = Path(argv[0])
@@ -198,11 +195,6 @@ class Node(ExecuteProcess):
             hint = "Did you leave package='…' out?"
             raise SubstitutionFailure(f"executable '{argv[0]}' is not a file", hint)
         return Program(path.resolve(), argv, shown)
-
-
-def _shown_word(word: str) -> str:
-    """A word as it is printed: a file made for this launch lies elsewhere in every run."""
-    return re.sub(r".*/launch_params_\w+/", "launch_params/", word)
 
 
 def _words(words: Iterable[SomeSubstitutionsType] | None, name: str) -> list[SomeSubstitutionsType]:
