@@ -2,7 +2,7 @@
 
 `rosbags` does the work. It reads the attributes of any object, if arrays are numpy arrays and bytes are
 numbers, so each message is shown to it as a plain portrait of itself; what it reads goes straight into our
-own classes. Wide strings, which it does not know, are at the end.
+own classes. What it does not know is described at the end.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable
 from functools import cache
+from math import isqrt
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
@@ -107,8 +108,13 @@ def _description(type_: FieldType, element_class: Any) -> Any:
     if not type_.is_array:
         return element
     if type_.is_fixed and type_.size is not None:
-        return Nodetype.ARRAY, (element, type_.size)
+        return long_array(_store(), element, type_.size) if _is_long(type_) else array_of(element, type_.size)
     return Nodetype.SEQUENCE, (element, type_.size or 0)
+
+
+def _is_long(type_: FieldType) -> bool:
+    """Whether an array is told in parts."""
+    return type_.is_fixed and (type_.size or 0) > LONGEST and (not type_.is_primitive or type_.base in STRINGS)
 
 
 def _portrait(message: Any) -> SimpleNamespace:
@@ -130,14 +136,19 @@ def _shown(value: Any, type_: FieldType) -> Any:
     if type_.is_bounded and type_.size is not None and len(value) > type_.size:
         raise ValueError(f"{len(value)} elements in a sequence of at most {type_.size}")
     if not type_.is_primitive or type_.base in STRINGS:
-        if not type_.is_primitive:
-            return [_portrait(each) for each in value]
-        return [SimpleNamespace(units=to_units(each)) for each in value] if type_.base == "wstring" else list(value)
+        shown = _shown_elements(value, type_)
+        return in_parts(shown) if _is_long(type_) else shown
     if type_.base == "byte":
         return numpy.frombuffer(b"".join(value), "uint8")
     if type_.base == "bool":
         return numpy.array(list(value), "bool")
     return numpy.asarray(value, numpy_name(type_.base)).ravel()
+
+
+def _shown_elements(values: Any, type_: FieldType) -> list[Any]:
+    if not type_.is_primitive:
+        return [_portrait(each) for each in values]
+    return [SimpleNamespace(units=to_units(each)) for each in values] if type_.base == "wstring" else list(values)
 
 
 def _maker(message_class: Any) -> Callable[..., Any]:
@@ -193,12 +204,18 @@ def _limited(values: Any, type_: FieldType) -> Any:
     return values
 
 
-# -- wide strings ------------------------------------------------------------------------------------------------------
-# rosbags does not know them, so they are shown to it as something that has the same bytes: on the wire of Humble's Fast DDS,
-# the number of UTF-16 units and then each unit in four bytes (facts: rosidl_typesupport_fastrtps_cpp, Fast-CDR 1).
+# -- cdr shapes ---------------------------------------------------------------------------------------------------
+# What rosbags does not know, as something that it knows and that has the same bytes: wide strings, and long fixed
+# arrays.
+# A wide string is on the wire of Humble's Fast DDS the number of its UTF-16 units and then each unit in four bytes
+# (facts: rosidl_typesupport_fastrtps_cpp, Fast-CDR 1). A fixed array of strings or messages is a line of code per
+# element in what rosbags writes for itself, so a long one is told as one of arrays.
 
 WIDE = "wide string"
 """The name under which rosbags knows an element of an array of wide strings."""
+
+LONGEST = 64
+"""A fixed array with more strings or messages than these is told in parts."""
 
 
 def base(name: str) -> Any:
@@ -213,6 +230,13 @@ def named(name: str) -> Any:
     from rosbags.interfaces import Nodetype
 
     return Nodetype.NAME, name
+
+
+def array_of(element: Any, size: int) -> Any:
+    """rosbags' description of exactly so many elements."""
+    from rosbags.interfaces import Nodetype
+
+    return Nodetype.ARRAY, (element, size)
 
 
 def wide_string() -> Any:
@@ -235,3 +259,27 @@ def from_units(units: Any) -> str:
         raise ValueError("a unit of a wide string is larger than two bytes")
     text: str = units.astype("<u2").tobytes().decode("utf-16-le")
     return text
+
+
+def long_array(store: Any, element: Any, size: int) -> Any:
+    """Description of a long fixed array: equal parts, and what is left over."""
+    length = isqrt(size)
+    part, whole = f"{length} of {element}", f"{size} of {element}"
+    store.fielddefs[part] = ((), [("values", array_of(element, length))])
+    store.types[part] = list
+    rest = [("rest", array_of(element, size % length))] if size % length else []
+    store.fielddefs[whole] = ((), [("parts", array_of(named(part), size // length)), *rest])
+    store.types[whole] = _joined
+    return named(whole)
+
+
+def in_parts(values: list[Any]) -> SimpleNamespace:
+    """The elements of a long fixed array, as rosbags is to see them."""
+    length = isqrt(len(values))
+    full = len(values) - len(values) % length
+    parts = [SimpleNamespace(values=values[start : start + length]) for start in range(0, full, length)]
+    return SimpleNamespace(parts=parts, rest=values[full:])
+
+
+def _joined(parts: Any, rest: Any = ()) -> list[Any]:
+    return [value for part in parts for value in part] + list(rest)
