@@ -224,7 +224,7 @@ def _converted(typed: Any, kind: int) -> Any:
         return str(typed)
     import yaml
 
-    from ...ros.runtime.files import safe_load
+    from ...ros.runtime.bounded_yaml import safe_load
 
     try:
         value = safe_load(str(typed))

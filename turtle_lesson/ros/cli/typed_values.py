@@ -90,7 +90,7 @@ def read_yaml(text: str, what: str = "The passed value") -> Any:
     """The value of a YAML text. Raises CommandError, in one line, for anything that is none or could be a trap."""
     import yaml
 
-    from ..runtime.files import safe_load
+    from ..runtime.bounded_yaml import safe_load
 
     if len(text) > MAX_LENGTH:
         raise CommandError(f"{what} is too long: at most {MAX_LENGTH} characters of YAML are read")

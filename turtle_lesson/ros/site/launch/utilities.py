@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, get_args, get_origin
 
-from turtle_lesson.ros.runtime.files import safe_load
+from turtle_lesson.ros.runtime.bounded_yaml import safe_load
 
 from ._entities import SomeSubstitutionsType, Substitution, TextSubstitution
 

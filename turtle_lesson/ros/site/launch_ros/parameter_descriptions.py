@@ -21,7 +21,7 @@ from launch._tags import Reader, tags, text, typed
 from launch.frontend import Entity, Parser, parse_substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions, perform_text_as, text_of
 
-from turtle_lesson.ros.runtime.files import safe_load
+from turtle_lesson.ros.runtime.bounded_yaml import safe_load
 
 __all__ = ["Parameter", "ParameterFile", "ParameterValue"]
 

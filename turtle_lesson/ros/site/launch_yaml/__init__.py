@@ -13,7 +13,7 @@ from launch.frontend import Entity as BaseEntity
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import is_instance_of
 
-from turtle_lesson.ros.runtime.files import BoundedLoader
+from turtle_lesson.ros.runtime.bounded_yaml import BoundedLoader
 from turtle_lesson.ros.sim.errors import shown_path
 
 __all__ = ["Entity", "Parser"]

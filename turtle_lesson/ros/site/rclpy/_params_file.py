@@ -18,7 +18,7 @@ Entry = tuple[str, str, Any]
 
 def read_parameter_file(path: str) -> list[Entry]:
     """The values in a file, in its order; names of nested parameters are joined by dots. Raises YamlValueError."""
-    from turtle_lesson.ros.runtime.files import LONGEST
+    from turtle_lesson.ros.runtime.bounded_yaml import LONGEST
 
     try:
         with open(path, encoding="utf-8") as file:
@@ -162,7 +162,7 @@ def line_of(node: Any) -> int:
 @cache
 def _loader() -> Any:
     """A reader of YAML that leaves it to us what an unmarked word means, refuses aliases, and knows the line it has come to."""
-    from turtle_lesson.ros.runtime.files import BoundedLoader
+    from turtle_lesson.ros.runtime.bounded_yaml import BoundedLoader
 
     class Loader(BoundedLoader):
         yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}

@@ -139,7 +139,7 @@ def get_parameter_value(string_value: str) -> Any:
     """
     import yaml
 
-    from turtle_lesson.ros.runtime.files import safe_load
+    from turtle_lesson.ros.runtime.bounded_yaml import safe_load
 
     try:
         value = safe_load(string_value)
@@ -169,7 +169,7 @@ def parameter_dict_from_yaml_file(
         RuntimeError: if the file has nothing for a node, or is no parameter file.
         OSError: if it cannot be read.
     """
-    from turtle_lesson.ros.runtime.files import LONGEST, safe_load
+    from turtle_lesson.ros.runtime.bounded_yaml import LONGEST, safe_load
 
     with open(parameter_file, encoding="utf-8") as file:
         content = safe_load(file.read(LONGEST + 1))
