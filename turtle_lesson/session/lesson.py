@@ -25,7 +25,7 @@ from .robot import real_ros
 if TYPE_CHECKING:
     from ..lab.recorder import ObstacleBoard, Recorder
     from ..lab.widgets.backend import Backend
-    from ..ros.ament.export import Exported
+    from ..ros.ament.source import Exported
     from ..ros.bags.recorder import Recording
     from ..ros.launching import LaunchHandle
     from ..ros.rmw.network import Conditions
@@ -296,7 +296,7 @@ class Lesson(Inspection):
         `package` is a name ("robot_controller": the learner's, or else the finished one) or a folder. It is checked with
         every rule of the build first. Raises PackageError, which says what a real build would refuse and where.
         """
-        from ..ros.ament.export import export_package
+        from ..ros.ament.source import export_package
 
         return export_package(self._world, package, to, overwrite=overwrite)
 

@@ -7,20 +7,16 @@ colcon-core 0.10 and colcon-output 0.2.
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from ..idl.names import LOWER_CASE
-from ..idl.registry import Registry, registry
 from ..runtime import files
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from .ament_cmake import build_ament_cmake
 from .ament_python import build_ament_python
-from .cmake_commands import definitions
 from .install_tree import (
     Environment,
     Outcome,
@@ -33,7 +29,7 @@ from .install_tree import (
     write_setup_files,
 )
 from .manifest import Found, in_order, needed_by
-from .source import resource
+from .source import resource, types_for
 
 if TYPE_CHECKING:
     from ..runtime.world import World
@@ -274,21 +270,6 @@ def _listed(word: str, names: list[str]) -> str:
     """`without talker, listener`, of many names the first ones; nothing without names."""
     more = f" and {len(names) - 8} more" if len(names) > 8 else ""
     return f"{word} {', '.join(names[:8])}{more}" if names else ""
-
-
-def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | None]]) -> Registry:
-    """The interfaces that a package's build sees: the built-in ones, what is sourced, `others`, and its own files."""
-    built_in = Registry().packages()
-    sourced = [registry.package(name) for name in registry.packages() if name not in built_in]
-    places = {package.name: (package.directory, package.files) for package in sourced} | dict(others)
-    places.pop(found.name, None)
-    files = tuple(definitions(found.path))
-    if files and LOWER_CASE.fullmatch(found.name):
-        places[found.name] = (found.path, files)
-    types = Registry()
-    for name, place in places.items():
-        types.add(name, *place)
-    return types
 
 
 def as_seconds(seconds: float) -> str:

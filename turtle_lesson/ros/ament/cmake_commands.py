@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
 
 from ..idl import names
@@ -17,7 +16,7 @@ from ..idl.model import Definition, DuplicateName, InvalidDefinition, MessageDef
 from ..idl.names import did_you_mean, module_name
 from ..idl.registry import PARSERS, Registry
 from ..sim.errors import shown_path
-from .cmake import Command, regex_matches, split_at
+from .cmake import Command, split_at
 from .install_tree import PYTHON_FOLDERS, Item, files_in
 from .manifest import Found
 from .package import SHARE, BuildFailure, filled, refused
@@ -28,7 +27,6 @@ _INSTALL_WORDS = {
     "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
     "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
 }  # fmt: skip
-_FILTERS = ("PATTERN", "REGEX")
 _RUNS = "OWNER_EXECUTE"
 
 
@@ -125,7 +123,14 @@ def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item
             )
         yield Item(target, source, program=True)
     elif source.is_dir():
-        items = list(_directory_items(target, source, entry.options))
+        # Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can. Patterns have no effect.
+        general, _ = split_at(entry.options, ("PATTERN", "REGEX"))
+        keeps = "USE_SOURCE_PERMISSIONS" in general
+        items = [
+            Item("/".join(filter(None, (target, file.relative_to(source).as_posix()))), file, program=runs)
+            for file in files_in(source)
+            for runs in [_RUNS in general or (keeps and os.access(file, os.X_OK))]
+        ]
         if entry.destination == f"lib/{found.name}" and items and not any(item.program for item in items):
             hints.append(
                 f"CMakeLists.txt, line {entry.line}: what install(DIRECTORY …) installs cannot be run. Write "
@@ -139,39 +144,6 @@ def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item
 def _first_line(file: Path) -> str:
     text = file.read_bytes().split(b"\n", 1)[0] if file.is_file() else b""
     return text.decode("utf-8", "replace")
-
-
-def _directory_items(target: str, folder: Path, options: Sequence[str]) -> Iterator[Item]:
-    """The files of a folder, as an `install(DIRECTORY …)` with these options installs them below `target`.
-
-    Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can.
-    """
-    general, rest = split_at(options, _FILTERS)
-    filters: list[tuple[str, str, tuple[str, ...]]] = []
-    while len(rest) > 1:
-        words, later = split_at(rest[2:], _FILTERS)
-        filters.append((rest[0], rest[1], words))
-        rest = later
-    for file in files_in(folder):
-        inner = file.relative_to(folder)
-        paths = [folder / path for path in (inner, *inner.parents[:-1])]
-        if any("EXCLUDE" in words and _fits(path, kind, text) for kind, text, words in filters for path in paths):
-            continue
-        wanted = [words for kind, text, words in filters if "EXCLUDE" not in words and _fits(file, kind, text)]
-        if "FILES_MATCHING" in general and not wanted:
-            continue
-        modes = [words for words in [*wanted, general] if {"PERMISSIONS", "FILE_PERMISSIONS"} & set(words)]
-        runs = _RUNS in modes[0] if modes else "USE_SOURCE_PERMISSIONS" in general and os.access(file, os.X_OK)
-        yield Item("/".join(filter(None, (target, inner.as_posix()))), file, program=runs)
-
-
-def _fits(path: Path, kind: str, text: str) -> bool:
-    """Whether a filter is about a path: a pattern looks at its last names, a regex at all of it."""
-    if kind == "REGEX":
-        return regex_matches(text, path.as_posix())
-    parts = text.strip("/").split("/")
-    last = path.parts[-len(parts) :]
-    return len(last) == len(parts) and all(map(fnmatchcase, last, parts))
 
 
 # -- rosidl_generate_interfaces ----------------------------------------------------------------------------------------

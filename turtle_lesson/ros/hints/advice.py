@@ -26,7 +26,9 @@ def call_advice(error: BaseException) -> str:
     if "'__init__' requires a 'super' object" in text:
         return "Call super with brackets: super().__init__('the_name_of_the_node')"
     match = _WRONG_CALL.match(text)
-    if match is None or not _is_called_by_a_learner(error):
+    # The call stands in a learner's code; there may be a wrapper of ours around the function.
+    callers = [frame.tb_frame.f_code.co_filename for frame in traceback_entries(error.__traceback__)[-2:]]
+    if match is None or all(map(is_ours, callers)):
         return ""
     name, keyword = match[1], match[3]
     if "takes 0 positional arguments but 1 was given" in text and "." in name:
@@ -38,12 +40,6 @@ def call_advice(error: BaseException) -> str:
         fields = list(kind.get_fields_and_field_types())
         return f"Give the fields by name: {kind.__name__}({', '.join(f'{each}=…' for each in fields[:3])})"
     return "" if function is None else _how(name, function, keyword)
-
-
-def _is_called_by_a_learner(error: BaseException) -> bool:
-    """Whether the call stands in a learner's code; there may be a wrapper of ours around the function."""
-    frames = traceback_entries(error.__traceback__)[-2:]
-    return any(not is_ours(frame.tb_frame.f_code.co_filename) for frame in frames)
 
 
 def _how(name: str, function: Callable[..., Any], keyword: str | None) -> str:

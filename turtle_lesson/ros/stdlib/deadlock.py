@@ -35,7 +35,9 @@ def look_for_hope(strand: Strand) -> None:
 
     Raises NeverWakes if that can never end; if the fault is another strand's, it is raised there.
     """
-    if _has_it_itself(strand):
+    lock = strand.waits_for
+    if strand is strand.simulation.driven and getattr(lock, "surely", False) and lock.owner is None:
+        # a cell waits for a lock that it has taken itself, by `with`, before it let the simulation run
         raise NeverWakes(why_in_a_circle(strand, [strand], strand))
     chain = list(_waited_for(strand))
     last = chain[-1]
@@ -81,14 +83,6 @@ def _sure_owner(strand: Strand) -> Strand | None:
     return lock.owner if getattr(lock, "surely", False) else None
 
 
-def _has_it_itself(strand: Strand) -> bool:
-    """Whether a cell waits for a lock that it has taken itself, by `with`, before it let the simulation run."""
-    lock = strand.waits_for
-    if strand is not strand.simulation.driven or not getattr(lock, "surely", False):
-        return False
-    return lock.owner is None
-
-
 def _waits_in_vain(strand: Strand) -> bool:
     if strand.dead or not strand.parked:
         return strand.dead
@@ -105,15 +99,10 @@ def _nobody_can_act(process: Process, this: Strand | None) -> bool:
         return False
     if process.is_notebook and process.simulation.driven is None:
         return False
-    if any(_is_held_outside(strand) for strand in process.strands if not strand.dead):
-        return False
+    for each in process.strands:
+        if not each.dead and getattr(each.waits_for, "owner", each) is None and not process.is_notebook:
+            return False  # somebody who is no strand holds the lock that it waits for
     return all(strand is this or _waits_in_vain(strand) for strand in process.strands)
-
-
-def _is_held_outside(strand: Strand) -> bool:
-    """Whether somebody who is no strand holds the lock that is waited for."""
-    lock: Any = strand.waits_for
-    return hasattr(lock, "owner") and lock.owner is None and not strand.process.is_notebook
 
 
 def _tell(victim: Strand, asking: Strand | None) -> None:

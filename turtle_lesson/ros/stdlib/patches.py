@@ -103,6 +103,15 @@ def _in_process(
     return _function(owner, call, why, name or function.__name__, stage)
 
 
+def _refused(owner: str, name: str, why_not: Callable[[str], Exception]) -> Patch:
+    """A row for a function that a simulated process cannot have."""
+
+    def refuse(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
+        raise why_not(f"{owner}.{name}()")
+
+    return _in_process(owner, refuse, "what only a real operating system can do", name)
+
+
 def _method(owner: str, name: str, function: Callable[..., Any], why: str, stage: Stage = Stage.WORLD) -> Patch:
     """A row for a method of a class; the function gets the real method first, and then the object."""
 
@@ -128,7 +137,7 @@ THREAD = "a thread of a simulated process is a strand of it, in virtual time"
 NAMES = "numbers in names count by process"
 LOOPS = "an asyncio loop that waits in virtual time"
 SIGNAL = "handlers are those of the simulated process"
-REFUSED = "what only a real operating system can do is refused to a simulated process"
+REFUSED = "what only a real operating system can do"
 MODULES = "looks into sys.modules, where the running program's modules must be"
 AT_EXIT = "is called when the simulated process ends"
 CHILD = "ros2 commands and Python files run in the world"
@@ -186,9 +195,9 @@ TABLE: tuple[Patch, ...] = (
     _in_process("_thread", process_state.interrupt_main, SIGNAL, cells=False),
     _in_process("os", process_state.exit_now, "ends the simulated process alone", "_exit", cells=False),
     _function("os", terminals.read, "reads the program's own terminal"),
-    *(_in_process("os", subprocesses.refusing(f"os.{name}()"), REFUSED, name) for name in ("fork", "forkpty")),
+    *(_refused("os", name, subprocesses.no_process) for name in ("fork", "forkpty")),
     *(
-        _in_process("signal", process_state.refusing(f"signal.{name}()"), REFUSED, name)
+        _refused("signal", name, process_state.no_signal)
         for name in ("setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill")
     ),
     *(_function(owner, process_state.showing(), MODULES, name) for owner, name in process_state.LOOKS_INTO_SYS_MODULES),

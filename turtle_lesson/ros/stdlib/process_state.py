@@ -261,15 +261,11 @@ class _Alarm:
 REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal, alarm)
 
 
-def refusing(what: str) -> Callable[..., Any]:
-    """A function that refuses what only a real operating system can do with signals."""
-
-    def refused(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
-        raise NotImplementedError(
-            f"{what} is not available here; signal.signal, signal.alarm, signal.pause and signal.raise_signal are"
-        )
-
-    return refused
+def no_signal(what: str) -> NotImplementedError:
+    """Why a simulated process cannot do with signals what only a real operating system can."""
+    return NotImplementedError(
+        f"{what} is not available here; signal.signal, signal.alarm, signal.pause and signal.raise_signal are"
+    )
 
 
 # -- exits -------------------------------------------------------------------------------------------------------------

@@ -227,22 +227,16 @@ def first_window(real: Any, self: Any, *arguments: Any, **keywords: Any) -> None
     real(self, *arguments, **keywords)
 
 
-def refusing(what: str) -> Callable[..., Any]:
-    """A function that refuses a simulated process another process."""
-
-    def refused(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
-        raise NotImplementedError(
-            f"{what} is not possible here: another process of the computer would know nothing about the simulation and its "
-            "time. Threads can be used (threading, concurrent.futures.ThreadPoolExecutor), and further nodes by a launch file."
-        )
-
-    return refused
+def no_process(what: str) -> NotImplementedError:
+    """Why a simulated process can have no other process."""
+    return NotImplementedError(
+        f"{what} is not possible here: another process of the computer would know nothing about the simulation and its "
+        "time. Threads can be used (threading, concurrent.futures.ThreadPoolExecutor), and further nodes by a launch file."
+    )
 
 
 def start_process(real: Any, self: Any) -> None:
     """`multiprocessing.Process.start`, which is what all of multiprocessing comes down to."""
-    strand = running_strand()
-    if strand is None:
-        real(self)
-    else:
-        refusing("multiprocessing")(strand)
+    if running_strand() is not None:
+        raise no_process("multiprocessing")
+    real(self)

@@ -61,7 +61,11 @@ def value_of(context: LaunchContext, value: Any) -> Any:
     if isinstance(value, Substitution):
         return _from_text(perform_substitutions(context, [value]))
     if isinstance(value, Sequence) and not isinstance(value, bytes):
-        return _from_sequence(context, value)
+        if any(isinstance(item, Substitution) for item in value):
+            return _from_text(text_of(context, value))
+        if any(isinstance(item, Sequence) and not isinstance(item, str) for item in value):
+            return uniform([safe_load(text_of(context, item)) for item in value])
+        return uniform(list(value))
     raise ParameterTypeError(
         f"Unexpected type for parameter value {value!r}",
         "It can be a bool, int, float, text, or a list.",
@@ -82,14 +86,6 @@ def _from_text(text: str) -> Any:
         f"Sequence[float], Sequence[str]. Got {type(value)}.",
         f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text.",
     )
-
-
-def _from_sequence(context: LaunchContext, items: Sequence[Any]) -> Any:
-    if any(isinstance(item, Substitution) for item in items):
-        return _from_text(text_of(context, items))
-    if any(isinstance(item, Sequence) and not isinstance(item, str) for item in items):
-        return uniform([safe_load(text_of(context, item)) for item in items])
-    return uniform(list(items))
 
 
 def uniform(items: list[Any]) -> list[Any]:

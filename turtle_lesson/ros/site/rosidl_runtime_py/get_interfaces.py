@@ -51,21 +51,18 @@ def get_interface_path(interface_name: str) -> str:
         raise ValueError(f"Invalid name '{interface_name}'. Must not contain empty parts")
     if ".." in parts:
         raise ValueError(f"Invalid name '{interface_name}'. Must not contain '..'")
-    path = _share(parts[0]).joinpath(*parts[1:])
+    package = parts[0]
+    _check_package(package)
+    share = current_packages().get(package).share if package in current_packages() else SITE / package
+    if registry.knows(package):
+        share = registry.package(package).directory  # which holds `msg/`, `srv/` and `action/`
+    path = share.joinpath(*parts[1:])
     if "." not in path.name:
         with_suffix = path.with_name(f"{path.name}.{parts[-2]}")
         path = with_suffix if with_suffix.is_file() else path.with_name(f"{path.name}.idl")
     if not path.exists():
         raise LookupError(f"Could not find the interface '{path}'")
     return str(path)
-
-
-def _share(package: str) -> Path:
-    """The folder that holds `msg/`, `srv/` and `action/` of a package."""
-    _check_package(package)
-    if registry.knows(package):
-        return registry.package(package).directory
-    return current_packages().get(package).share if package in current_packages() else SITE / package
 
 
 def _check_package(name: str) -> None:

@@ -193,14 +193,6 @@ class BufferCore:
         """The names of all frames, in the order in which they were heard of."""
         return list(self._frames)
 
-    def _chain(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
-    ) -> list[str]:
-        """The frames on the way from the source to the target by the fixed frame."""
-        up = Way(self._frames, fixed_frame, source_frame, nanoseconds(source_time)).chain(source_frame)
-        down = Way(self._frames, target_frame, fixed_frame, nanoseconds(target_time)).chain(fixed_frame)
-        return list(dict.fromkeys([*up, *down]))
-
 
 def nanoseconds(value: Any, what: str = "time") -> int:
     """A time or duration in ns, given as rclpy's or as a message. Raises TypeError."""

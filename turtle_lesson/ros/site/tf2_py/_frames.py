@@ -231,11 +231,6 @@ class Way:
         """Where the source frame is, seen from the target frame."""
         return combined(inverted(_summed(self.down)), _summed(self.up))
 
-    def chain(self, source: str) -> list[str]:
-        """The frames on the way from the source on, with those at both ends."""
-        up = [source, *(kept.parent for _, kept in self.up)]
-        return [*up, *(name for name, _ in reversed(self.down))]
-
 
 def _summed(steps: list[Step]) -> Transform:
     turn, place = NO_TURN, ORIGIN

@@ -73,15 +73,15 @@ class ProcessIO(RunningProcessEvent):
 class ProcessStdout(ProcessIO):
     """A process has printed to its standard output."""
 
-    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
-        super().__init__(text=text, fd=1, **kwargs)
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(fd=1, **kwargs)
 
 
 class ProcessStderr(ProcessIO):
     """A process has printed to its standard error."""
 
-    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
-        super().__init__(text=text, fd=2, **kwargs)
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(fd=2, **kwargs)
 
 
 class ProcessTargetedEvent(Event):
