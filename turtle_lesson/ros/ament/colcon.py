@@ -341,7 +341,18 @@ def overridden(world: World, chosen: list[Found], install: Path, allowed: list[s
     be overridden without a word. Facts: colcon-override-check 0.0.1, which comes with ROS 2.
     """
     built_in = {*CMAKE_PACKAGES, *PYTHON_PACKAGES, *Registry().packages()} - INSTALLED_SEPARATELY
-    needed = _needed_in_underlays(world, install)
+    install = install.resolve()
+    outside = {  # in other install folders
+        each.name: each.prefix
+        for each in world.packages
+        if each.prefix and each.prefix not in {install, prefix_of(install, each.prefix.name)}
+    }
+    needed = {
+        other: shown_path(str(outside[other]))
+        for name, prefix in outside.items()
+        for other in needs_of(prefix, name)
+        if other in outside
+    }
     places: dict[str, str] = {}
     for found in chosen:
         if found.name in allowed:
@@ -354,19 +365,3 @@ def overridden(world: World, chosen: list[Found], install: Path, allowed: list[s
     if not places:
         return ""
     return filled("colcon: what is overridden", where=where, names=" ".join(sorted(places))).removesuffix("\n")
-
-
-def _needed_in_underlays(world: World, install: Path) -> dict[str, str]:
-    """The packages of other install folders on which packages there depend, each with its place."""
-    install = install.resolve()
-    outside = {
-        each.name: each.prefix
-        for each in world.packages
-        if each.prefix and each.prefix not in {install, prefix_of(install, each.prefix.name)}
-    }
-    places = {}
-    for name, prefix in outside.items():
-        for other in needs_of(prefix, name):
-            if other in outside:
-                places[other] = shown_path(str(outside[other]))
-    return places

@@ -174,7 +174,18 @@ def load(args: Namespace) -> None:
 
 def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, Any]]:
     """The parameters that a file has for a node. Raises CommandError if it has none."""
-    content = read_yaml(_text_of(path), path)
+    file = Path(path)
+    try:
+        # Devices are not read, and of a file no more than YAML may have: some never end.
+        if file.exists() and not file.is_file():
+            raise CommandError(f"cannot read {path}: it is a folder or a device, not a file")
+        with file.open(encoding="utf-8") as stream:
+            text = stream.read(MAX_LENGTH + 1)
+    except FileNotFoundError:
+        raise CommandError(f"[Errno 2] No such file or directory: '{path}'") from None
+    except (OSError, ValueError) as error:
+        raise CommandError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
+    content = read_yaml(text, path)
     if not isinstance(content, dict):
         raise CommandError(
             f"{path} is not a parameter file: expected a line '{node_name}:' and ros__parameters below it"
@@ -193,20 +204,6 @@ def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, 
             )
         found.update(flat(content[key]["ros__parameters"]))
     return list(found.items())
-
-
-def _text_of(path: str) -> str:
-    """The text of a file. Devices are not read, and of a file no more than YAML may have: some never end."""
-    file = Path(path)
-    try:
-        if file.exists() and not file.is_file():
-            raise CommandError(f"cannot read {path}: it is a folder or a device, not a file")
-        with file.open(encoding="utf-8") as stream:
-            return stream.read(MAX_LENGTH + 1)
-    except FileNotFoundError:
-        raise CommandError(f"[Errno 2] No such file or directory: '{path}'") from None
-    except (OSError, ValueError) as error:
-        raise CommandError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
 
 
 LIST_PATIENCE = 1.0

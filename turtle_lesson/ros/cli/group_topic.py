@@ -82,20 +82,15 @@ def pub(args: Namespace) -> None:
     if times / args.rate > LONGEST:
         raise CommandError(f"{times} messages at {args.rate:g} a second take longer than a day: publish fewer")
     with direct_node(args, args.node_name) as node:
-        message, setters = _message(args.message_type, args.values)
-        publisher = node.create_publisher(type(message), expanded(node, args.topic_name), profile)
+        kind = class_of(args.message_type, "msg")
+        values = read_yaml(args.values)
+        if not isinstance(values, dict):
+            raise CommandError("The passed value needs to be a dictionary in YAML format")
+        message = kind()
+        setters = populate(message, values)  # the real tool looks at fields only when somebody subscribes
+        publisher = node.create_publisher(kind, expanded(node, args.topic_name), profile)
         _wait_for_subscriptions(node, publisher, (1 if times else 0) if needed is None else needed)
         _publish(node, publisher, message, args, times, setters)
-
-
-def _message(type_name: str, text: str) -> tuple[Any, list[Callable[[Any], None]]]:
-    """The message as typed, and what sets its stamps. The real tool looks at fields only when somebody subscribes."""
-    kind = class_of(type_name, "msg")
-    values = read_yaml(text)
-    if not isinstance(values, dict):
-        raise CommandError("The passed value needs to be a dictionary in YAML format")
-    message = kind()
-    return message, populate(message, values)
 
 
 def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> None:

@@ -31,20 +31,14 @@ def cd(terminal: Terminal, words: list[str]) -> int:
         terminal.say(shown_path(str(target)))
     before = Path.cwd()
     if not target.is_dir():
-        what = "Not a directory" if target.exists() else "No such file or directory"
-        return terminal.fail(f"cd: {words[0]}: {what}. {_beside(target)}".rstrip(" ."))
+        what, close = "Not a directory" if target.exists() else "No such file or directory", ""
+        if len(str(target)) <= 200 and target.parent.is_dir():
+            close = did_you_mean(target.name, [path.name for path in target.parent.iterdir() if path.is_dir()])
+        return terminal.fail(f"cd: {words[0]}: {what}. {close}".rstrip(" ."))
     os.chdir(target)
     os.environ["OLDPWD"] = str(before)
     files.last_cd = Path.cwd()
     return 0
-
-
-def _beside(target: Path) -> str:
-    """A folder of a similar name in the same place."""
-    place = target.parent
-    if len(str(target)) > 200 or not place.is_dir():
-        return ""
-    return did_you_mean(target.name, [path.name for path in place.iterdir() if path.is_dir()])
 
 
 def pwd(terminal: Terminal, words: list[str]) -> int:

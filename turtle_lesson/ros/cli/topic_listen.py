@@ -98,7 +98,7 @@ def echo(args: Namespace) -> None:
         profile = profile_of(args, PRESET) if is_chosen(args) else matching_profile(node, args.topic_name, PRESET)
         kind = class_of(args.message_type, "msg") if args.message_type else class_of_topic(node, args.topic_name)
         if kind is None:
-            print(not_published(args.topic_name))
+            print(NOT_PUBLISHED.format(args.topic_name))
             hint = suggest(expanded(node, args.topic_name), topics(node, include_hidden=True))
             raise CommandError("Could not determine the type for the passed topic", hint)
         lost = None if args.no_lost_messages else print_lost
@@ -161,6 +161,8 @@ def _printer(args: Namespace) -> Callable[[Any], None]:
 # -- listening to a topic: finding its type, and saying why nothing comes ----------------------------------------------
 
 LOOK_AGAIN = 0.1
+NOT_PUBLISHED = "WARNING: topic [{}] does not appear to be published yet"
+"""The real tools' warning, which goes to stdout."""
 
 
 def class_of_topic(node: Node, topic: str) -> Any:
@@ -174,17 +176,12 @@ def class_of_topic(node: Node, topic: str) -> Any:
     return class_of(types[0], "msg")
 
 
-def not_published(topic: str) -> str:
-    """The real tools' warning, which goes to stdout."""
-    return f"WARNING: topic [{topic}] does not appear to be published yet"
-
-
 def wait_for_class(node: Node, topic: str, seconds: float | None) -> Any:
     """The class of a topic's messages; if no node uses the topic, waits so long for one that does."""
     kind = class_of_topic(node, topic)
     if kind is not None:
         return kind
-    print(not_published(topic))
+    print(NOT_PUBLISHED.format(topic))
     deadline = None if seconds is None else now() + seconds
     while kind is None:
         if deadline is not None and now() >= deadline:
@@ -260,6 +257,7 @@ SECOND = 1_000_000_000
 class Measure:
     """Looks at what is heard on a topic, as messages or `raw` bytes, and prints what comes of it; `begin` first."""
 
+    about = ""
     raw = False
     begin = ""
 
@@ -291,6 +289,8 @@ def _now() -> int:
 class Rate(Measure):
     """How often messages come that pass a filter."""
 
+    about = "How many messages a second arrive on a topic"
+
     def __init__(self, args: Namespace) -> None:
         super().__init__(args)
         self._wanted = filter_of(args.filter_expr)
@@ -315,6 +315,7 @@ class Rate(Measure):
 class Bandwidth(Measure):
     """How many bytes come a second."""
 
+    about = "How many bytes a second arrive on a topic"
     raw = True
     begin = "Subscribed to [{}]\n"
 
@@ -344,6 +345,7 @@ def _bytes(size: float, rate: float) -> str:
 class Delay(Measure):
     """How long ago the times in messages' headers were."""
 
+    about = "How old the messages of a topic are when they arrive, judged by the stamp in their header"
     _begun = _news = False
 
     def count(self, message: Any) -> None:
@@ -368,12 +370,12 @@ class Delay(Measure):
         self.print_times(lambda mean: f"average delay: {mean:.3f}")
 
 
-def _add(name: str, about: str, topic: Argument, measure: type[Measure], window: int, *more: Argument) -> None:
+def _add(words: str, measure: type[Measure], window: int, topic: Argument, *more: Argument) -> None:
     """Add the verb of a measure, which looks at so many messages unless told otherwise."""
     text = "How many messages to average over (default: %(default)s)"
     average = arg("--window -w", text, metavar="WINDOW", type=positive_int, default=window)
 
-    @verb(f"topic {name}", topic, average, *more, *NODE_WITHOUT_DAEMON, duration(), help_text=about)
+    @verb(words, topic, average, *more, *NODE_WITHOUT_DAEMON, duration(), help_text=measure.about)
     def work(args: Namespace) -> None:
         from rclpy.qos import qos_profile_sensor_data
 
@@ -385,26 +387,8 @@ def _add(name: str, about: str, topic: Argument, measure: type[Measure], window:
             listen(node, name, kind, made.count, qos_profile_sensor_data, args, raw=made.raw)
 
 
-_add(
-    "hz",
-    "How many messages a second arrive on a topic",
-    arg("topic_name", "Name of the topic, such as /turtle1/pose"),
-    Rate,
-    10_000,
-    arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR"),
-    flag("--wall-time", "Accepted; there is only one clock here", dest="use_wtime"),
-)
-_add(
-    "bw",
-    "How many bytes a second arrive on a topic",
-    arg("topic", "Name of the topic, such as /turtle1/pose"),
-    Bandwidth,
-    100,
-)
-_add(
-    "delay",
-    "How old the messages of a topic are when they arrive, judged by the stamp in their header",
-    arg("topic", "Name of the topic, whose messages have a header"),
-    Delay,
-    10_000,
-)
+_filter = arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR")
+_wall_time = flag("--wall-time", "Accepted; there is only one clock here", dest="use_wtime")
+_add("topic hz", Rate, 10_000, arg("topic_name", "Name of the topic, such as /turtle1/pose"), _filter, _wall_time)
+_add("topic bw", Bandwidth, 100, arg("topic", "Name of the topic, such as /turtle1/pose"))
+_add("topic delay", Delay, 10_000, arg("topic", "Name of the topic, whose messages have a header"))

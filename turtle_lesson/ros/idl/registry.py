@@ -339,9 +339,7 @@ class InterfaceFinder:
             return None
         if not self.registry.knows(parts[0]) or _is_found_elsewhere(fullname, path, target):
             return None
-        return self._spec(fullname, self.registry.package(parts[0]), parts[1:])
-
-    def _spec(self, fullname: str, owner: Package, inner: list[str]) -> ModuleSpec | None:
+        owner, inner = self.registry.package(parts[0]), parts[1:]
         if not inner:
             return ModuleSpec(fullname, _Loader(_mark), origin="interfaces only", is_package=True)
         folder, known = inner[0], owner.names_in(inner[0])

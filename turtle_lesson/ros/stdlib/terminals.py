@@ -132,10 +132,9 @@ class ProgramInput(TextIOBase):
     def _read_more(self) -> bool:
         """Read one more line, or a key; whether there is one."""
         if self.raw and self.isatty():
-            if self.keys.wait(self.patience):
-                self._take_keys()
-                return True
-            return False
+            there = self.keys.wait(self.patience)
+            self._take_keys()
+            return there
         try:
             self.typed += self._next("") + "\n"
         except EOFError:
@@ -203,8 +202,7 @@ def terminal_of(file: Any) -> ProgramInput | None:
 def make_modules() -> list[ModuleType]:
     """`termios`, `tty`, `select`, `fcntl`, and on Windows `msvcrt`, by whose absence programs know that they are elsewhere."""
     termios = make_termios()
-    modules = [termios, make_tty(termios), make_select(), make_fcntl()]
-    return [*modules, make_msvcrt()] if os.name == "nt" else modules
+    return [termios, make_tty(termios), make_select(), make_fcntl(), *([make_msvcrt()] if os.name == "nt" else ())]
 
 
 def make_termios() -> ModuleType:

@@ -33,26 +33,20 @@ class InvalidLaunchFileError(Exception):
     def __init__(self, extension: str = "", *, likely_errors: Sequence[BaseException] | None = None) -> None:
         self.likely_errors = list(likely_errors or [])
         self.extension = extension
-        super().__init__(self._text())
-
-    def _text(self) -> str:
-        if not self.likely_errors or not self.extension:
-            return "The launch file may have a syntax error, or its format is unknown"
-        if len(self.likely_errors) == 1:
-            what = f"Caught exception when trying to load file of format [{self.extension}]"
-            return f"{what}: {_without_hint(self.likely_errors[0])}"
-        lines = [f" - {type(error).__name__}: {_without_hint(error)}" for error in self.likely_errors]
-        what = f"Caught multiple exceptions when trying to load file of format [{self.extension}]:"
-        return "\n".join([what, *lines])
+        # what the real one prints, without the simulation's hint after it
+        said = [KeyError.__str__(each) if isinstance(each, KeyError) else str(each) for each in self.likely_errors]
+        text = "The launch file may have a syntax error, or its format is unknown"
+        if extension and len(said) == 1:
+            text = f"Caught exception when trying to load file of format [{extension}]: {said[0]}"
+        elif extension and said:
+            lines = [f" - {type(each).__name__}: {words}" for each, words in zip(self.likely_errors, said, strict=True)]
+            what = f"Caught multiple exceptions when trying to load file of format [{extension}]:"
+            text = "\n".join([what, *lines])
+        super().__init__(text)
 
 
 class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
     """A launch file that is neither XML nor YAML."""
-
-
-def _without_hint(error: BaseException) -> str:
-    """What the real one prints, without the simulation's hint after it."""
-    return KeyError.__str__(error) if isinstance(error, KeyError) else str(error)
 
 
 MEANT = {
@@ -209,22 +203,19 @@ def _known(methods: dict[str, Callable[..., Any]], name: str, complaint: str) ->
 
 def expose_action(name: str) -> Callable[[Exposed], Exposed]:
     """Let a tag of this name stand for an action: decorates its class, which has a class method `parse`."""
-    return _exposing(name, action_parse_methods, "action")
+    return _exposing(name, action_parse_methods)
 
 
 def expose_substitution(name: str) -> Callable[[Exposed], Exposed]:
     """Let `$(name …)` stand for a substitution: decorates its class, which has a class method `parse`."""
-    return _exposing(name, substitution_parse_methods, "substitution")
+    return _exposing(name, substitution_parse_methods)
 
 
-def _exposing(name: str, methods: dict[str, Callable[..., Any]], kind: str) -> Callable[[Exposed], Exposed]:
+def _exposing(name: str, methods: dict[str, Callable[..., Any]]) -> Callable[[Exposed], Exposed]:
     def expose(exposed: Exposed) -> Exposed:
         method: Any = getattr(exposed, "parse", None) if inspect.isclass(exposed) else exposed
         if inspect.isclass(exposed) and not inspect.ismethod(method):
             raise RuntimeError("Did not find a class method called 'parse' in the class being decorated.")
-        if not callable(method):
-            what = f"Exposed {kind} parser for {name}"
-            raise RuntimeError(f"{what} is not a callable or a class containing a parse method")
         methods[name] = method
         return exposed
 

@@ -51,15 +51,15 @@ class Entity(BaseEntity):
                 )
             below = below["children"]
         self._read[KEYS].add("children")
-        return [self._child(item) for item in (below if isinstance(below, list) else [below])]
-
-    def _child(self, item: Any) -> Entity:
-        if not isinstance(item, Mapping) or len(item) != 1:
-            error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
-            lines = list(item.lines.values()) if isinstance(item, Mapping) else []
-            raise explained(error, _hint(item), (self._file, lines[-1]) if lines else None)
-        name = next(iter(item))
-        return Entity(item[name], str(name), parent=self, line=item.lines.get(name))
+        found: list[BaseEntity] = []
+        for item in below if isinstance(below, list) else [below]:
+            if not isinstance(item, Mapping) or len(item) != 1:
+                error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
+                lines = list(item.lines.values()) if isinstance(item, Mapping) else []
+                raise explained(error, _hint(item), (self._file, lines[-1]) if lines else None)
+            [name] = item
+            found.append(Entity(item[name], str(name), parent=self, line=item.lines.get(name)))
+        return found
 
     def assert_entity_completely_parsed(self) -> None:
         """Check that every key in it was asked for, or the list that it is."""
