@@ -40,14 +40,14 @@ _SETUP_FILES = {f"{name}.{shell}" for name in ("setup", "local_setup") for shell
 _UNDERLAY = "/opt/ros/"
 
 
-def source(world: World, words: list[str], *, cwd: Path | None = None, stdout: TextIO, stderr: TextIO) -> int:
+def source(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: Path) -> int:
     """`source FILE`: returns bash's exit code; a wrong name is answered in bash's words, and with what to try."""
     if not words:
         print("bash: source: filename argument required\nsource: usage: source filename [arguments]", file=stderr)
         return 2
     if words[0].startswith(_UNDERLAY):
         return 0  # the simulation's own packages are always there
-    file = (cwd or Path.cwd()) / Path(words[0]).expanduser()
+    file = cwd / Path(words[0]).expanduser()
     if problem := _problem(words[0], file):
         print(problem, file=stderr)
         return 1

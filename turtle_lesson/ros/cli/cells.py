@@ -23,20 +23,10 @@ from .script import UnfinishedError, command_end
 
 
 _ROS_1 = {
-    "catkin_create_pkg": "ros2 pkg create",
-    "catkin_make": "colcon build",
-    "catkin": "colcon build",
-    "rosbag": "ros2 bag",
-    "roslaunch": "ros2 launch",
-    "rosmsg": "ros2 interface",
-    "rosnode": "ros2 node",
-    "rospack": "ros2 pkg",
-    "rosparam": "ros2 param",
-    "rosrun": "ros2 run",
-    "rosservice": "ros2 service",
-    "rossrv": "ros2 interface",
-    "rostopic": "ros2 topic",
-}
+    "catkin_create_pkg": "ros2 pkg create", "catkin_make": "colcon build", "catkin": "colcon build",
+    "rosmsg": "ros2 interface", "rospack": "ros2 pkg", "rossrv": "ros2 interface",
+    **{f"ros{name}": f"ros2 {name}" for name in ("bag", "launch", "node", "param", "run", "service", "topic")},
+}  # fmt: skip
 
 _BY_ADVICE = {
     "nothing needs to be installed here: ROS 2 is simulated, and everything that the lesson needs is there": (

@@ -207,14 +207,9 @@ def add_verbs(
 # -- quality of service ----------------------------------------------------------------------------------------------
 
 PRESETS = (
-    "unknown",
-    "system_default",
-    "sensor_data",
-    "services_default",
-    "parameters",
-    "parameter_events",
+    "unknown", "system_default", "sensor_data", "services_default", "parameters", "parameter_events",
     "action_status_default",
-)
+)  # fmt: skip
 HISTORIES = ("system_default", "keep_last", "keep_all", "unknown")
 RELIABILITIES = ("system_default", "reliable", "best_effort", "unknown")
 DURABILITIES = ("system_default", "transient_local", "volatile", "unknown")

@@ -156,17 +156,10 @@ def _importable(name: str) -> str:
 
 
 _FROM = {
-    "Node": "from rclpy.node import Node",
-    "Duration": "from rclpy.duration import Duration",
-    "Time": "from rclpy.time import Time",
-    "Parameter": "from rclpy.parameter import Parameter",
-    "ActionServer": "from rclpy.action import ActionServer",
-    "ActionClient": "from rclpy.action import ActionClient",
-    "QoSProfile": "from rclpy.qos import QoSProfile",
-    "ReliabilityPolicy": "from rclpy.qos import ReliabilityPolicy",
-    "DurabilityPolicy": "from rclpy.qos import DurabilityPolicy",
-    "MultiThreadedExecutor": "from rclpy.executors import MultiThreadedExecutor",
-    "SingleThreadedExecutor": "from rclpy.executors import SingleThreadedExecutor",
+    **{name: f"from rclpy.{name.lower()} import {name}" for name in ("Node", "Duration", "Time", "Parameter")},
+    **{name: f"from rclpy.action import {name}" for name in ("ActionServer", "ActionClient")},
+    **{name: f"from rclpy.qos import {name}" for name in ("QoSProfile", "ReliabilityPolicy", "DurabilityPolicy")},
+    **{name: f"from rclpy.executors import {name}" for name in ("MultiThreadedExecutor", "SingleThreadedExecutor")},
     "ReentrantCallbackGroup": "from rclpy.callback_groups import ReentrantCallbackGroup",
     **{name: f"import {name}" for name in ("rclpy", "math", "time", "sys", "os", "random", "threading", "json")},
     "np": "import numpy as np",

@@ -30,18 +30,9 @@ when_assigned = True
 FLOAT_BOUNDS = {"float32": 3.402823466e38, "float64": 1.7976931348623157e308}
 FLOAT_WORDS = {"float32": "float", "float64": "double"}
 TYPE_CODES = {
-    "float32": "f",
-    "float64": "d",
-    "int8": "b",
-    "uint8": "B",
-    "char": "B",
-    "int16": "h",
-    "uint16": "H",
-    "int32": "i",
-    "uint32": "I",
-    "int64": "q",
-    "uint64": "Q",
-}
+    "float32": "f", "float64": "d", "int8": "b", "uint8": "B", "char": "B", "int16": "h", "uint16": "H", "int32": "i",
+    "uint32": "I", "int64": "q", "uint64": "Q",
+}  # fmt: skip
 # In the bytes of the largest float32, which numbers a little above ROS's bound are rounded to.
 _LARGEST = b"\xff\xff\x7f"
 

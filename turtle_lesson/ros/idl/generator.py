@@ -53,30 +53,15 @@ from .names import STRINGS, check_buildable_field, check_class_name, module_name
 Resolve = Callable[[FieldType], type]
 """Gives the class of a field's messages; raises UnknownMessageType where there is none."""
 
+_BUILT_IN = (bool, bytes, classmethod, dict, float, int, isinstance, len, property, range, str, type)
+_SHARED = (
+    message.message_repr, message.numpy_array, message.numpy_zeros, message.refuse_arguments, message.same_array,
+)  # fmt: skip
 COMMON: dict[str, Any] = {
-    "_array": array,
-    "_bool": bool,
-    "_bytes": bytes,
-    "_classmethod": classmethod,
-    "_dict": dict,
-    "_float": float,
-    "_inf": inf,
-    "_int": int,
-    "_isinstance": isinstance,
-    "_len": len,
-    "_message_repr": message.message_repr,
-    "_nan": nan,
-    "_new": object.__new__,
-    "_numpy_array": message.numpy_array,
-    "_numpy_zeros": message.numpy_zeros,
-    "_plain_text": message.plain_text,
-    "_property": property,
-    "_range": range,
-    "_refuse_arguments": message.refuse_arguments,
-    "_same_array": message.same_array,
-    "_str": str,
-    "_type": type,
+    **{f"_{each.__name__}": each for each in (array, *_BUILT_IN, *_SHARED)},
+    **{"_inf": inf, "_nan": nan, "_new": object.__new__, "_plain_text": message.plain_text},
 }
+"""The globals of each generated module."""
 
 
 def make_module(definition: Definition, resolve: Resolve) -> ModuleType:

@@ -37,16 +37,9 @@ CPP_WORDS = frozenset(_CPP.split())
 """The reserved words of C and of C++17."""
 
 _FROM_OTHER_LANGUAGES = {
-    "float": "float32",
-    "double": "float64",
-    "int": "int32",
-    "uint": "uint32",
-    "long": "int64",
-    "short": "int16",
-    "octet": "byte",
-    "str": "string",
-    "boolean": "bool",
-}
+    "float": "float32", "double": "float64", "int": "int32", "uint": "uint32", "long": "int64", "short": "int16",
+    "octet": "byte", "str": "string", "boolean": "bool",
+}  # fmt: skip
 _WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=.)(?=[A-Z][a-z])")
 
 
@@ -76,10 +69,10 @@ def check_package(name: str) -> None:
         raise InvalidResourceName(_broken(name, "package", LOWER_CASE), hint=_lower_case_hint(name))
 
 
-def check_message(name: str, hint: str = "") -> None:
+def check_message(name: str) -> None:
     """Raise InvalidResourceName unless the name may name a message, a service or an action."""
     if not MESSAGE.fullmatch(without_part(name)):
-        raise InvalidResourceName(_broken(name, "message", MESSAGE), hint=hint or _type_hint(name))
+        raise InvalidResourceName(_broken(name, "message", MESSAGE), hint=_type_hint(name))
 
 
 def check_field(name: str) -> None:

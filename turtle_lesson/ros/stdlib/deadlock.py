@@ -132,16 +132,13 @@ IDLE = "something to do"
 
 _WHAT_ENDS_IT = {
     "Barrier.wait": "come to the barrier",
-    "Condition.wait": "notify the condition",
-    "Condition.wait_for": "notify the condition",
+    **dict.fromkeys(("Condition.wait", "Condition.wait_for"), "notify the condition"),
     "Event.wait": "set the event",
-    "Future.exception": "complete the future",
-    "Future.result": "complete the future",
-    "Queue.get": "put anything into the queue",
+    **dict.fromkeys(("Future.exception", "Future.result"), "complete the future"),
+    **dict.fromkeys(("Queue.get", "SimpleQueue.get"), "put anything into the queue"),
     "Queue.join": "call task_done() for what is left in the queue",
     "Queue.put": "take anything out of the queue",
     "Semaphore.acquire": "release the semaphore",
-    "SimpleQueue.get": "put anything into the queue",
     "Thread.join": "end that thread",
 }
 

@@ -18,14 +18,8 @@ from sensor_msgs.msg import CompressedImage, Image
 Array = NDArray[Any]
 
 TYPES = {
-    "8U": "uint8",
-    "8S": "int8",
-    "16U": "uint16",
-    "16S": "int16",
-    "32S": "int32",
-    "32F": "float32",
-    "64F": "float64",
-}
+    "8U": "uint8", "8S": "int8", "16U": "uint16", "16S": "int16", "32S": "int32", "32F": "float32", "64F": "float64",
+}  # fmt: skip
 """OpenCV's depths in the order of their numbers, and what numpy calls them."""
 
 _DEPTHS = list(TYPES)

@@ -17,14 +17,9 @@ from ..utilities import normalize_to_list_of_substitutions, perform_substitution
 __all__ = ["EmitEvent", "Log", "LogDebug", "LogError", "LogInfo", "LogWarning", "RegisterEventHandler", "Shutdown"]
 
 LEVELS = {
-    "CRITICAL": "critical",
-    "FATAL": "critical",
-    "ERROR": "error",
-    "WARNING": "warning",
-    "WARN": "warning",
-    "INFO": "info",
+    "CRITICAL": "critical", "FATAL": "critical", "ERROR": "error", "WARNING": "warning", "WARN": "warning", "INFO": "info",
     "DEBUG": "debug",
-}
+}  # fmt: skip
 """The names of levels, and the logger's method for each."""
 
 
