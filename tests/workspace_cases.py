@@ -114,7 +114,8 @@ def colcon(world: World, line: str = "build") -> Answer:
 def source_in(world: World, file: str = "install/setup.bash") -> Answer:
     """`source FILE` in the current folder."""
     out, err = io.StringIO(), io.StringIO()
-    return Answer(source(world, [file], stdout=out, stderr=err), out.getvalue(), err.getvalue())
+    code = source(world, [file], stdout=out, stderr=err, cwd=Path.cwd())
+    return Answer(code, out.getvalue(), err.getvalue())
 
 
 def started(world: World, package: str, executable: str) -> str:

@@ -174,6 +174,9 @@ def _shown(rest: str) -> str:
     return cut.replace("\n", "\n\n")
 
 
+_NOT_NESTED = "Flow control statements are not properly nested."
+
+
 def _check_blocks(calls: Sequence[Call]) -> None:
     """Every `if` and every loop is closed, in the right order."""
     opened: list[Call] = []
@@ -184,16 +187,13 @@ def _check_blocks(calls: Sequence[Call]) -> None:
             start = _ENDS.get(call.name, "if")
             if not opened or opened[-1].name != start:
                 article = "an" if start == "if" else "a"
-                raise _not_nested(call, f"{call.name}() without {article} {start}() before it")
+                reason = f"{call.name}() without {article} {start}() before it"
+                raise _unreadable(_NOT_NESTED, f"{call.line} ({call.name})", call.line, reason)
             if call.name in _ENDS:
                 opened.pop()
     if opened:
-        raise _not_nested(opened[-1], f"this {opened[-1].name}() has no end{opened[-1].name}()")
-
-
-def _not_nested(call: Call, reason: str) -> BuildFailure:
-    words = "Flow control statements are not properly nested."
-    return _unreadable(words, f"{call.line} ({call.name})", call.line, reason)
+        line, name = opened[-1].line, opened[-1].name
+        raise _unreadable(_NOT_NESTED, f"{line} ({name})", line, f"this {name}() has no end{name}()")
 
 
 # -- conditions ----------------------------------------------------------------------------------------------------------
@@ -262,20 +262,15 @@ class _Condition:
             operand = self.words.pop(0)[0] if self.words else ""
             return test == "DEFINED" and operand in self.variables
         left = self._next()
-        if operator := self._accept(*_BINARY):
-            return self._compare(self._value(left), operator, self._value(self._next()))
-        return self._truth(*left)
-
-    def _value(self, word: Word) -> str:
-        text, quoted = word
-        return text if quoted else self.variables.get(text, text)
-
-    def _compare(self, left: str, operator: str, right: str) -> bool:
+        operator = self._accept(*_BINARY)
+        if not operator:
+            return self._truth(*left)
+        one, other = (text if quoted else self.variables.get(text, text) for text, quoted in (left, self._next()))
         if operator in {"STREQUAL", "EQUAL"}:
-            return left == right
+            return one == other
         if operator == "IN_LIST":
-            return left in right.split(";")
-        return operator == "MATCHES" and regex_matches(right, left)
+            return one in other.split(";")
+        return operator == "MATCHES" and regex_matches(other, one)
 
     def _truth(self, text: str, quoted: bool) -> bool:
         if text.upper() in _TRUE:
@@ -474,10 +469,9 @@ def _globbed(words: Sequence[str], here: str, *, below: bool) -> list[str] | Non
         start = f"{here}/"
     if {"RELATIVE", "LIST_DIRECTORIES"} & set(patterns):
         return None
-    found: set[str] = set()
-    for pattern in (Path(here, each) for each in patterns):
-        if not below:
-            found |= {Path(path).as_posix() for path in glob(str(pattern))}
-        elif pattern.name:
-            found |= {path.as_posix() for path in pattern.parent.rglob(pattern.name) if path.is_file()}
-    return [path.removeprefix(start) for path in sorted(found)]
+    found: set[Path] = set()
+    for pattern in (Path(here, each) for each in patterns if each):
+        found |= set(
+            filter(Path.is_file, pattern.parent.rglob(pattern.name)) if below else map(Path, glob(str(pattern)))
+        )
+    return [path.removeprefix(start) for path in sorted(path.as_posix() for path in found)]
