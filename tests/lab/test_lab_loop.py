@@ -6,12 +6,16 @@ import asyncio
 import threading
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
+import traitlets
 
 from turtle_lesson.lab.widgets import backend
-from turtle_lesson.lab.widgets.backend import Loop
+from turtle_lesson.lab.widgets.backend import Link, Loop
+from turtle_lesson.lab.widgets.live_widget import LiveWidget
 
 
 def test_an_order_that_arrives_in_another_thread_is_carried_out_in_the_notebooks() -> None:
@@ -96,3 +100,54 @@ def test_an_action_that_raises_does_not_end_the_frames(stepped: SteppedLoop) -> 
     loop.every(1 / 30, lambda: 1 / 0)
     stepped.run(1.0)
     assert len(ticks) in (29, 30)
+
+
+class Ticks(LiveWidget):
+    """Counts its ticks, as a number and as bytes."""
+
+    SCRIPTS, STYLES = ("dom",), ("base",)
+    count = traitlets.Int().tag(sync=True)
+    blobs = traitlets.List(traitlets.Bytes()).tag(sync=True)
+
+    def tick(self) -> None:
+        self.count += 1
+        self.blobs = [b"", b"%d of %s" % (self.count, self.model_id.encode())]
+
+    def text(self) -> str:
+        return f"{self.count} ticks"
+
+
+class Page:
+    """What a browser's page gets for the widgets whose views it has, and hands out as `handOut` does (js/dom.js)."""
+
+    def __init__(self, name: str, *widgets: Ticks) -> None:
+        self.messages = 0
+        self.shown: dict[str, list[tuple[int, bytes]]] = {widget.model_id: [] for widget in widgets}
+        for widget in widgets:
+            widget.comm.publish_msg = partial(self.hear, widget.model_id)
+            widget._order(widget, {"do": "open", "view": name}, [])
+        self.messages = 0
+
+    def hear(self, model: str, kind: str, *, data: Any, buffers: Any, **rest: object) -> None:
+        if kind != "comm_msg":  # but that it is closed
+            return
+        self.messages += 1
+        joined = data["content"]["messages"] if data["method"] == "custom" else [[model, data, 0, len(buffers)]]
+        for each, update, first, end in joined:
+            assert (update["method"], update["buffer_paths"]) == ("update", [["blobs", 0], ["blobs", 1]])
+            self.shown[each].append((update["state"]["count"], buffers[first:end][1]))
+
+
+def test_the_messages_of_a_frame_travel_together_to_the_page_that_shows_their_widgets(stepped: SteppedLoop) -> None:
+    loop = Loop()
+    first, second, alone = widgets = [Ticks(Link(SimpleNamespace(loop=loop, ended=False))) for _ in range(3)]
+    page, other_page = Page("page/1", first, second), Page("other/1", alone)
+    stepped.run(1.0)
+    assert page.messages == other_page.messages == first.count - 1
+    for widget in widgets:
+        shown = (page if widget is not alone else other_page).shown[widget.model_id]
+        assert shown == [(at, b"%d of %s" % (at, widget.model_id.encode())) for at in range(1, widget.count + 1)]
+    second.close()
+    stepped.run(1.0)
+    assert len(page.shown[first.model_id]) == first.count
+    first.close(), alone.close()

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from ...ros.sim.keyboard import Keyboard
     from ..recorder import ObstacleBoard, Recorder
+    from .live_widget import LiveWidget
 
 
 FRAME = 1 / 30
@@ -117,6 +118,10 @@ class Link:
         return getattr(self._backend, name)
 
 
+Message = tuple["LiveWidget", dict[str, Any], list[bytes]]
+"""A widget, what it has to say to its views, and the buffers that go with it."""
+
+
 class Loop:
     """The event loop of the cell in which this is made; without one (a plain script) calls happen at once.
 
@@ -131,6 +136,9 @@ class Loop:
             self._loop = None
         self._actions: dict[object, _Action] = {}
         self._next: asyncio.TimerHandle | None = None
+        self.outbox: list[Message] | None = None
+        """What the widgets have to say in this frame; None between frames. It travels together, since each message that a
+        kernel sends costs half a millisecond."""
         self._cost = 0.0  # of a frame, seconds of this thread's processor time, on average
 
     def soon(self, action: Callable[..., object], *arguments: Any) -> None:
@@ -158,10 +166,17 @@ class Loop:
         now, began = loop.time(), thread_time()
         pause = min(max(FRAME, self._cost / SHARE), LONGEST_FRAME)
         self._next = loop.call_at(max(self._next.when() + pause, now), self._frame, loop) if self._actions else None
-        for each in list(self._actions.values()):
-            if now >= each.due:
-                each.due = now + each.seconds - FRAME / 2
-                each.action()
+        outbox: list[Message] = []
+        self.outbox = outbox
+        try:
+            for each in list(self._actions.values()):
+                if now >= each.due:
+                    each.due = now + each.seconds - FRAME / 2
+                    each.action()
+        finally:
+            self.outbox = None
+            if outbox:
+                outbox[0][0].send_together(outbox)
         self._cost += (thread_time() - began - self._cost) * NEWS
 
 

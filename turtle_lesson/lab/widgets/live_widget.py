@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..picture import Picture
-from .backend import Backend, Link
+from .backend import Backend, Link, Message
 
 KEPT = 20
 """Of the widgets whose system has ended and that no page shows, so many can still be shown: a page that is run as a whole
@@ -152,6 +152,37 @@ class LiveWidget(anywidget.AnyWidget):
         """Whether a page shows the widget."""
         limit = real_monotonic() - PATIENCE
         return any(time > limit for time in self._views.values())
+
+    @property
+    def _pages(self) -> frozenset[str]:
+        """The pages of a browser on which it has views; a view is named by its page, a slash, and a name of its own."""
+        return frozenset(view.partition("/")[0] for view in self._views)
+
+    def _send(self, msg: dict[str, Any], buffers: list[bytes] | None = None) -> None:
+        """Send a message to the views; in a frame, have it wait for those of the other widgets."""
+        outbox = self.backend.loop.outbox
+        if outbox is None:
+            super()._send(msg, buffers)
+        else:
+            outbox.append((self, msg, buffers or []))
+
+    @staticmethod
+    def send_together(outbox: list[Message]) -> None:
+        """Send messages of several widgets. Of those that are on the same pages, the first one's views hand them out there."""
+        by_pages: dict[frozenset[str], list[Message]] = {}
+        for message in outbox:
+            if message[0].comm is not None:  # or it was closed since then
+                by_pages.setdefault(message[0]._pages, []).append(message)
+        for messages in by_pages.values():
+            first, data, buffers = messages[0]
+            if len(messages) == 1:
+                first._send(data, buffers)
+                continue
+            parts, joined = list[Any](), list[bytes]()
+            for widget, data, buffers in messages:
+                parts.append([widget.model_id, data, len(joined), len(joined) + len(buffers)])
+                joined += buffers
+            first.send({"messages": parts}, joined)
 
     def _tick(self) -> None:
         if self.backend.ended:

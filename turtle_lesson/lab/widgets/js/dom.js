@@ -28,7 +28,8 @@ function figure(value, digits = 2) {
 
 /** Tell Python that this view is there, until it is closed; returns how to send orders, and how to end. */
 function connect(model) {
-  const view = Math.random().toString(36).slice(2);
+  const page = (globalThis.turtleLessonPage ??= Math.random().toString(36).slice(2)); // the same for all widgets here
+  const view = `${page}/${Math.random().toString(36).slice(2)}`;
   const order = (name, content = {}) => {
     try {
       model.send({ ...content, do: name, view });
@@ -39,6 +40,16 @@ function connect(model) {
   const heart = setInterval(() => order("alive"), 20000);
   order("open");
   return { order, close: () => (clearInterval(heart), order("close")) };
+}
+
+/** Hand out what the kernel sends as one message to the first of several widgets of this page. */
+function handOut({ model }) {
+  model.on("msg:custom", ({ messages = [] }, buffers) => {
+    for (const [id, data, first, end] of messages) {
+      const message = { content: { data }, buffers: buffers.slice(first, end) };
+      model.widget_manager.get_model(id).then((one) => one._handle_comm_msg(message));
+    }
+  });
 }
 
 /** Call `draw` at the next repaint, however often this is asked for until then. */

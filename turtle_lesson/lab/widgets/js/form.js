@@ -129,4 +129,4 @@ function terminalLine(model) {
   return { panel, watch: { line: show, remark: show } };
 }
 
-export default { render: (context) => mount(context, "form", `Form for ${context.model.get("name")}`, formPanel) };
+export default { initialize: handOut, render: (context) => mount(context, "form", `Form for ${context.model.get("name")}`, formPanel) };

@@ -145,4 +145,4 @@ function lastNumber(points) {
   return NaN;
 }
 
-export default { render: (context) => mount(context, "live", "Live plot", plotPanel) };
+export default { initialize: handOut, render: (context) => mount(context, "live", "Live plot", plotPanel) };

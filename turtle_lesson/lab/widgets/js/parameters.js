@@ -50,4 +50,4 @@ function parameterRow(item, order) {
   return { row, show };
 }
 
-export default { render: (context) => mount(context, "parameters", `Parameters of ${context.model.get("node_name")}`, parametersPanel) };
+export default { initialize: handOut, render: (context) => mount(context, "parameters", `Parameters of ${context.model.get("node_name")}`, parametersPanel) };

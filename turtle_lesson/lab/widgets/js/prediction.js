@@ -112,4 +112,4 @@ function drawGuessFigures(context, scale, side, colour) {
   }
 }
 
-export default { render: (context) => mount(context, "prediction", "Prediction", predictionPanel) };
+export default { initialize: handOut, render: (context) => mount(context, "prediction", "Prediction", predictionPanel) };

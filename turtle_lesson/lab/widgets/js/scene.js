@@ -6,4 +6,4 @@ function render({ model, el }) {
   return () => (view.close(), close());
 }
 
-export default { render };
+export default { initialize: handOut, render };

@@ -190,4 +190,4 @@ function speedRow(name, unit, model, order) {
   return { row, show, showLimit };
 }
 
-export default { render: (context) => mount(context, "teleop", `Teleop on ${context.model.get("topic")}`, teleopPanel) };
+export default { initialize: handOut, render: (context) => mount(context, "teleop", `Teleop on ${context.model.get("topic")}`, teleopPanel) };
