@@ -12,7 +12,6 @@ import os
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import total_ordering
 
 from .sim.errors import is_library
 
@@ -109,9 +108,8 @@ def changes() -> Iterator[Change]:
     return (value for value in globals().values() if isinstance(value, Change))
 
 
-@total_ordering
 class Release:
-    """A release of ROS 2, by its name such as "humble". Newer ones are greater. Raises ValueError for another name."""
+    """A release of ROS 2, by its name such as "humble". Raises ValueError for another name."""
 
     def __init__(self, name: str) -> None:
         if name not in RELEASES:
@@ -127,9 +125,6 @@ class Release:
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Release) and self.name == other.name
-
-    def __lt__(self, other: Release) -> bool:
-        return RELEASES.index(self.name) < RELEASES.index(other.name)
 
     def __hash__(self) -> int:
         return hash(self.name)

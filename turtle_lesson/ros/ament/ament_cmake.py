@@ -12,7 +12,6 @@ from difflib import get_close_matches
 from pathlib import Path, PurePosixPath
 
 from ..idl.names import did_you_mean
-from ..idl.registry import Registry
 from ..sim.errors import shown_path
 from .cmake import CMakeFile, Command, evaluate, split_at
 from .cmake_commands import (
@@ -111,7 +110,10 @@ class _Build:
                 "There is no ament_package() in CMakeLists.txt: without it ROS 2 does not find the package. Write it last."
             )
         if self.environment.compiles:
-            types = self._types()
+            types = self.environment.types  # of the package's own, only those that CMakeLists.txt names
+            if self.found.name in types.packages():
+                types.remove(self.found.name)
+            types.add(self.found.name, self.found.path, self.interfaces)
             for check in self.checks:
                 check.resolve(types)
         foreign = [entry for entry in self.entries if not asks_for_python(self.found, entry)]
@@ -329,7 +331,19 @@ class _Build:
         if self.found.root is not None:
             faults = faults_in(self.found.root)
         if faults:
-            raise self._refused_xml(faults, [caller, where])
+            file = shown_path(str(self.found.path / "package.xml"))
+            said = "\n".join(faults)
+            text = (
+                f"Error parsing '{file}':\ncatkin_pkg.package.InvalidPackage: Error(s) in package '{file}':\n{said}\n"
+            )
+            what = f"{SHARE}/ament_cmake_core/cmake/core/package_xml_2_cmake.py"
+            process = f"execute_process(/usr/bin/python3 {what} {file}) returned error code 1"
+            hints = [hint_for(fault) for fault in faults]
+            if self.found.xml_error:
+                hints = ["Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"]
+            stack = [f"{_PACKAGE_XML}:49 (_ament_package_xml)", caller, where]
+            message = cmake_message(process, f"{_PACKAGE_XML}:95 (message)", stack)
+            raise BuildFailure(text + message, " ".join(filter(None, hints)))
         if self.project != self.found.name:
             text = (
                 f"ament_package_xml() package name '{self.found.name}' in '/package.xml' does not match current "
@@ -338,27 +352,6 @@ class _Build:
             hint = f"Write project({self.found.name}) in line {self.project_line} of CMakeLists.txt."
             hint = "" if self.hints else hint  # there is none at all, and that is said already
             raise refused(text, f"{_PACKAGE_XML}:53 (message)", hint, [caller, where])
-
-    def _refused_xml(self, faults: list[str], stack: list[str]) -> BuildFailure:
-        file = shown_path(str(self.found.path / "package.xml"))
-        said = "\n".join(faults)
-        text = f"Error parsing '{file}':\ncatkin_pkg.package.InvalidPackage: Error(s) in package '{file}':\n{said}\n"
-        what = f"{SHARE}/ament_cmake_core/cmake/core/package_xml_2_cmake.py"
-        process = f"execute_process(/usr/bin/python3 {what} {file}) returned error code 1"
-        stack = [f"{_PACKAGE_XML}:49 (_ament_package_xml)", *stack]
-        hints = [hint_for(fault) for fault in faults]
-        if self.found.xml_error:
-            hints = ["Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"]
-        message = cmake_message(process, f"{_PACKAGE_XML}:95 (message)", stack)
-        return BuildFailure(text + message, " ".join(filter(None, hints)))
-
-    def _types(self) -> Registry:
-        """All types that exist in this build; of the package's own those alone that CMakeLists.txt names."""
-        types = self.environment.types
-        if self.found.name in types.packages():
-            types.remove(self.found.name)
-        types.add(self.found.name, self.found.path, self.interfaces)
-        return types
 
     def _on_install(self, command: Command, where: str) -> None:
         self.entries += install_entries(self.found, command)

@@ -25,11 +25,8 @@ _BLOCKS = ("foreach", "while", "function", "macro")
 
 _ENDS = {f"end{name}": name for name in ("if", *_BLOCKS)}
 _INSTALL_FOLDERS = {
-    "CMAKE_INSTALL_BINDIR": "bin",
-    "CMAKE_INSTALL_LIBDIR": "lib",
-    "CMAKE_INSTALL_INCLUDEDIR": "include",
-    "CMAKE_INSTALL_DATADIR": "share",
-    "CMAKE_INSTALL_DATAROOTDIR": "share",
+    **{f"CMAKE_INSTALL_{folder.upper()}DIR": folder for folder in ("bin", "lib", "include")},
+    **dict.fromkeys(("CMAKE_INSTALL_DATADIR", "CMAKE_INSTALL_DATAROOTDIR"), "share"),
 }
 """The variables that include(GNUInstallDirs) sets."""
 
@@ -38,12 +35,6 @@ def split_at(args: Sequence[str], words: Collection[str]) -> tuple[tuple[str, ..
     """The arguments before the first of CMake's own words, and those from it on."""
     end = next((place for place, argument in enumerate(args) if argument in words), len(args))
     return tuple(args[:end]), tuple(args[end:])
-
-
-def regex_matches(regex: str, text: str) -> bool:
-    """Whether a part of the text fits, of which Python warns where brackets hold what may mean more one day: `[[a-z]`."""
-    with warnings.catch_warnings(action="ignore", category=FutureWarning):
-        return re.search(regex, text) is not None
 
 
 def _unreadable(words: str, place: str | int, line: int, reason: str) -> BuildFailure:
@@ -66,11 +57,8 @@ _TOKEN = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 _KINDS = {
-    "left": "left paren",
-    "right": "right paren",
-    "bracket": "bracket argument",
-    "quoted": "quoted argument",
-    "unquoted": "unquoted argument",
+    **{name: f"{name} paren" for name in ("left", "right")},
+    **{name: f"{name} argument" for name in ("bracket", "quoted", "unquoted")},
     "open_comment": "unterminated bracket",
     "open_string": "unterminated string",
 }
@@ -92,18 +80,15 @@ class Token:
     place: int
 
     @property
-    def raw(self) -> bool:
-        """Whether it is a `[[…]]`, in which nothing is replaced."""
-        return self.kind == "bracket argument"
-
-    @property
     def quoted(self) -> bool:
         """Whether it stays one argument."""
-        return self.raw or self.kind == "quoted argument"
+        return self.kind in {"bracket argument", "quoted argument"}
 
     def refusal(self, words: str, reason: str) -> BuildFailure:
         """The error of CMake's that this token is found where another one must be; `reason` says it for people."""
-        said = f'{words} {self.kind} with text "{_shown(self.text)}".'
+        cut = self.text if len(self.text) <= 400 else f"{self.text[:400]}…"
+        shown = cut.replace("\n", "\n\n")  # every line a paragraph
+        said = f'{words} {self.kind} with text "{shown}".'
         return _unreadable(said, self.place, self.line, _OPEN.get(self.kind, reason))
 
 
@@ -168,12 +153,6 @@ def _arguments(tokens: Iterator[Token], name: Token) -> Iterator[Token]:
     raise _unreadable('Parse error. Function missing ending ")". End of file reached.', name.line, name.line, reason)
 
 
-def _shown(rest: str) -> str:
-    """Text as CMake shows it, every line a paragraph; a long one is cut."""
-    cut = rest if len(rest) <= 400 else f"{rest[:400]}…"
-    return cut.replace("\n", "\n\n")
-
-
 _NOT_NESTED = "Flow control statements are not properly nested."
 
 
@@ -207,18 +186,15 @@ _BINARY = (
 )  # fmt: skip
 _UNARY = ("DEFINED", "TARGET", "EXISTS", "COMMAND", "POLICY", "TEST", "IS_DIRECTORY", "IS_ABSOLUTE")
 
-Word = tuple[str, bool]
-"""A word of a condition, and whether it was quoted."""
-
 
 class _Condition:
-    """The condition of an `if(…)`: takes the words from the left, the operator that binds weakest first.
+    """The condition of an `if(…)`: takes the words, each with whether it was quoted, the operator that binds weakest first.
 
     Names, NOT, AND, OR, DEFINED, STREQUAL, EQUAL, IN_LIST, MATCHES and parentheses are understood; other tests count as
     false, as they mostly are for a package of Python files. What CMake does not know raises ValueError.
     """
 
-    def __init__(self, words: list[Word], variables: Mapping[str, str]) -> None:
+    def __init__(self, words: list[tuple[str, bool]], variables: Mapping[str, str]) -> None:
         self.words = list(words)
         self.variables = variables
 
@@ -233,7 +209,7 @@ class _Condition:
             return self.words.pop(0)[0]
         return ""
 
-    def _next(self) -> Word:
+    def _next(self) -> tuple[str, bool]:
         if not self.words:
             raise ValueError
         return self.words.pop(0)
@@ -270,7 +246,9 @@ class _Condition:
             return one == other
         if operator == "IN_LIST":
             return one in other.split(";")
-        return operator == "MATCHES" and regex_matches(other, one)
+        # Python warns where brackets hold what may mean more one day: `[[a-z]`
+        with warnings.catch_warnings(action="ignore", category=FutureWarning):
+            return operator == "MATCHES" and re.search(other, one) is not None
 
     def _truth(self, text: str, quoted: bool) -> bool:
         if text.upper() in _TRUE:
@@ -321,9 +299,8 @@ def compiled_programs(folder: Path, variables: dict[str, str] | None = None) -> 
 def evaluate(text: str, folder: Path = Path(), variables: dict[str, str] | None = None) -> CMakeFile:
     """The commands of the text that take effect, with their variables put in, and the C++ of its inner folders.
 
-    Where a file builds C++, what is not understood in it is passed over: most of it serves the C++.
-
-    Raises BuildFailure where CMake would refuse the text, or it needs more of CMake than is understood here.
+    Where a file builds C++, what is not understood in it is passed over: most of it serves the C++. Raises BuildFailure
+    where CMake would refuse the text, or it needs more of CMake than is understood here.
     """
     where = folder.as_posix()
     known = variables or dict.fromkeys(("CMAKE_SOURCE_DIR", "PROJECT_SOURCE_DIR"), where)
@@ -434,7 +411,7 @@ class _Evaluator:
     def _expanded(self, argument: Token, call: Call) -> str:
         """The argument with its variables and escapes put in; an unset variable is empty, as in CMake."""
         text = argument.text
-        if argument.raw:
+        if argument.kind == "bracket argument":  # in `[[…]]` nothing is replaced
             return text
         if text.count("${") > text.count("}"):
             file = shown_path(f"{self.variables['CMAKE_CURRENT_SOURCE_DIR']}/CMakeLists.txt")

@@ -168,14 +168,6 @@ def _class_of(topic: BagTopic) -> Any:
     return message_class
 
 
-def check_topics(bag: Bag, names: tuple[str, ...]) -> None:
-    """Raise BagError if a topic of this name is not in the bag."""
-    known = [topic.name for topic in bag.topics]
-    for name in names:
-        if name not in known:
-            raise BagError(f"the bag has no topic '{name[:247]}'. {did_you_mean(name[:247], known)}".rstrip())
-
-
 def parse_remaps(rules: list[str]) -> dict[str, str]:
     """From `/old:=/new` to a mapping. Raises BagError, or InvalidTopicNameException for a name that ROS does not allow."""
     from rclpy.validate_topic_name import validate_topic_name
@@ -195,13 +187,16 @@ def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> boo
     """Play a bag, for `seconds` of robot time at most. Called in a simulated process. Returns whether it came to its end."""
     import rclpy
 
-    check_topics(bag, how.topics)
+    known = [topic.name for topic in bag.topics]
+    for name in how.topics:
+        if name not in known:
+            raise BagError(f"the bag has no topic '{name[:247]}'. {did_you_mean(name[:247], known)}".rstrip())
     rclpy.init(args=[])
     try:
         node = rclpy.create_node(NODE, enable_rosout=False)
         player = Player(node, bag, how, say)
         for name in how.remaps:
-            if name not in [topic.name for topic in bag.topics]:
+            if name not in known:
                 say("WARN", f"the bag has no topic '{name}' to be remapped")
         simulation = node._ros_simulation
         until = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)

@@ -254,14 +254,16 @@ def send_goal(args: Namespace) -> None:
             handle.cancel_goal_async()  # nothing can wait for the answer any more
             raise
         print(f"Result:\n    {message_to_yaml(with_result.result)}")
-        print(f"Goal finished with status: {_status(with_result.status)}")
-
-
-def _status(status: int) -> str:
-    from action_msgs.msg import GoalStatus
-
-    names = ("ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
-    return next((name for name in names if getattr(GoalStatus, f"STATUS_{name}") == status), "UNKNOWN")
+        names = (
+            "UNKNOWN",
+            "ACCEPTED",
+            "EXECUTING",
+            "CANCELING",
+            "SUCCEEDED",
+            "CANCELED",
+            "ABORTED",
+        )  # as in GoalStatus
+        print(f"Goal finished with status: {names[with_result.status]}")
 
 
 def _cancelled(node: Node, handle: ClientGoalHandle) -> Exception:

@@ -132,19 +132,17 @@ def _on_screen(context: LaunchContext, output: Any) -> set[str]:
     Raises ValueError for a value of `output` that launch does not know.
     """
     if isinstance(output, Mapping):
-        return {stream for name, where in output.items() for stream in _streams(name, where)}
+        shown: set[str] = set()
+        for name, where in output.items():
+            if name not in {"stdout", "stderr", "both"}:
+                raise ValueError(f'{name} is not a valid output source i.e. "stdout", "stderr" or "both"')
+            if "screen" in ({where} if isinstance(where, str) else set(where)):
+                shown |= {"stdout", "stderr"} if name == "both" else {name}
+        return shown
     value = perform_substitutions(context, output)
     if value not in SCREEN:
         raise ValueError(f'{value} is not a valid standard output config i.e. "screen", "log" or "both"')
     return SCREEN[value]
-
-
-def _streams(name: str, where: str | Iterable[str]) -> set[str]:
-    if name not in {"stdout", "stderr", "both"}:
-        raise ValueError(f'{name} is not a valid output source i.e. "stdout", "stderr" or "both"')
-    if "screen" not in ({where} if isinstance(where, str) else set(where)):
-        return set()
-    return {"stdout", "stderr"} if name == "both" else {name}
 
 
 def words_in(pieces: Iterable[Substitution]) -> list[list[Substitution]]:
