@@ -1,4 +1,4 @@
-"""The learner's files: which of them a command may change, how they are written, streams into them, and YAML in them.
+"""The learner's files: which of them a command may change, how they are written, and streams that print into them.
 
 A command of the terminal (also a redirection, `ros2 bag record`, `ros2 pkg create`, `colcon build`) changes files in the
 learner's folder only, through no `cd`, path or symbolic link, and leaves the lesson's pages in it alone. `check` decides that,
