@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from .checks import are_on, refusal
 from .model import FieldType
@@ -109,6 +109,11 @@ class AbstractType:
     """Any type of a field."""
 
     __slots__ = ()
+    _shown: ClassVar[str]
+    """How one is shown, with `{0}` for itself."""
+
+    def __str__(self) -> str:
+        return self._shown.format(self)
 
 
 class AbstractNestableType(AbstractType):
@@ -122,9 +127,7 @@ class BasicType(AbstractNestableType):
     """A number, a boolean or a byte, by its IDL name: `double`, `int32`, `boolean`, `octet`, ..."""
 
     typename: str
-
-    def __str__(self) -> str:
-        return self.typename
+    _shown = "{0.typename}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,9 +135,7 @@ class NamedType(AbstractNestableType):
     """A type known by its bare name; our definitions have none, programs may ask."""
 
     name: str
-
-    def __str__(self) -> str:
-        return self.name
+    _shown = "{0.name}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,13 +144,11 @@ class NamespacedType(AbstractNestableType):
 
     namespaces: list[str]
     name: str
+    _shown = "{0.namespaces[0]}/{0.name}"
 
     def namespaced_name(self) -> tuple[str, ...]:
         """`('geometry_msgs', 'msg', 'Vector3')`."""
         return (*self.namespaces, self.name)
-
-    def __str__(self) -> str:
-        return f"{self.namespaces[0]}/{self.name}"
 
 
 class AbstractGenericString(AbstractNestableType):
@@ -178,8 +177,7 @@ class AbstractWString(AbstractGenericString):
 class UnboundedString(AbstractString):
     """A string of any length."""
 
-    def __str__(self) -> str:
-        return "string"
+    _shown = "string"
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,17 +185,14 @@ class BoundedString(AbstractString):
     """A string of at most `maximum_size` characters."""
 
     maximum_size: int
-
-    def __str__(self) -> str:
-        return f"string<{self.maximum_size}>"
+    _shown = "string<{0.maximum_size}>"
 
 
 @dataclass(frozen=True, slots=True)
 class UnboundedWString(AbstractWString):
     """A wide string of any length."""
 
-    def __str__(self) -> str:
-        return "wstring"
+    _shown = "wstring"
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,9 +200,7 @@ class BoundedWString(AbstractWString):
     """A wide string of at most `maximum_size` characters."""
 
     maximum_size: int
-
-    def __str__(self) -> str:
-        return f"wstring<{self.maximum_size}>"
+    _shown = "wstring<{0.maximum_size}>"
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,9 +219,7 @@ class Array(AbstractNestedType):
     """Exactly `size` values."""
 
     size: int
-
-    def __str__(self) -> str:
-        return f"{self.value_type}[{self.size}]"
+    _shown = "{0.value_type}[{0.size}]"
 
 
 class AbstractSequence(AbstractNestedType):
@@ -241,8 +232,7 @@ class AbstractSequence(AbstractNestedType):
 class UnboundedSequence(AbstractSequence):
     """Any number of values."""
 
-    def __str__(self) -> str:
-        return f"sequence<{self.value_type}>"
+    _shown = "sequence<{0.value_type}>"
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,9 +240,7 @@ class BoundedSequence(AbstractSequence):
     """At most `maximum_size` values."""
 
     maximum_size: int
-
-    def __str__(self) -> str:
-        return f"sequence<{self.value_type}, {self.maximum_size}>"
+    _shown = "sequence<{0.value_type}, {0.maximum_size}>"
 
 
 def slot_type(type_: FieldType) -> AbstractType:
