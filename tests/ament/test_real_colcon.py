@@ -6,11 +6,13 @@ has. Nothing of this is shipped. `apt-get install` of PACKAGES makes it run; CI 
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
 import subprocess
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from test_workspace_build import BROKEN
@@ -18,6 +20,7 @@ from workspace_cases import XML, change, colcon, make_package
 
 from turtle_lesson import start
 from turtle_lesson.ros.ament.create import create_package, parse
+from turtle_lesson.ros.ament.manifest import faults_in
 from turtle_lesson.ros.runtime.world import open_world
 
 PACKAGES = "colcon python3-colcon-ros python3-colcon-bash python3-colcon-output ament-cmake rosidl-core g++ make"
@@ -33,7 +36,7 @@ pytestmark = pytest.mark.skipif(
 
 STAND_IN = """\
 cmake_minimum_required(VERSION 3.8)
-project(rosidl_default_generators)
+project(rosidl_default_generators NONE)
 find_package(ament_cmake REQUIRED)
 ament_export_dependencies(rosidl_cmake rosidl_generator_c rosidl_generator_cpp rosidl_typesupport_introspection_c
   rosidl_typesupport_introspection_cpp)
@@ -60,13 +63,26 @@ def real(words: str, folder: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-def build(workspace: Path) -> subprocess.CompletedProcess[str]:
-    """`colcon build` with the stand-in beside the packages."""
+@pytest.fixture(scope="module")
+def generators(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The setup file of a workspace in which the stand-in is built."""
+    workspace = tmp_path_factory.mktemp("generators")
     folder = workspace / "src/rosidl_default_generators"
     folder.mkdir(parents=True)
     (folder / "package.xml").write_text(STAND_IN_XML)
     (folder / "CMakeLists.txt").write_text(STAND_IN)
-    return real(f"{PYTHON} /usr/bin/colcon build", workspace)
+    done = real(f"{PYTHON} /usr/bin/colcon build", workspace)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return workspace / "install/local_setup.bash"
+
+
+def build(workspace: Path, generators: Path) -> subprocess.CompletedProcess[str]:
+    """`colcon build` in a shell where the stand-in was sourced."""
+    environment = {"PATH": "/usr/bin:/bin", "HOME": str(workspace), "LANG": "C.UTF-8"}
+    command = ["/bin/bash", "-c", f". {generators}; {PYTHON} /usr/bin/colcon build"]
+    return subprocess.run(
+        command, cwd=workspace, env=environment, capture_output=True, text=True, timeout=300, check=False
+    )
 
 
 def check_installed(workspace: Path, programs: list[str], launch_file: str) -> None:
@@ -94,15 +110,15 @@ def learners_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
-def test_the_finished_package(tmp_path: Path) -> None:
+def test_the_finished_package(tmp_path: Path, generators: Path) -> None:
     start(simulator=False).export("robot_controller", to=tmp_path)
-    result = build(tmp_path)
+    result = build(tmp_path, generators)
     assert result.returncode == 0, result.stdout + result.stderr
     assert result.stderr == ""
     check_installed(tmp_path, ["navigator", "obstacle_detector", "status_monitor"], "start_system.launch.py")
 
 
-def test_a_learners_package(tmp_path: Path) -> None:
+def test_a_learners_package(tmp_path: Path, generators: Path) -> None:
     """As the lesson has it: pkg create, definitions, programs and the launch file beside, then what a page adds."""
     (tmp_path / "src").mkdir()
     line = f"robot_controller --build-type ament_cmake --destination-directory {tmp_path}/src"
@@ -133,7 +149,7 @@ ament_package()
     # ament_lint_auto, which pkg create asks for where tests are built, is nothing that Debian has.
     change(folder / "CMakeLists.txt", "if(BUILD_TESTING)", "if(FALSE)")
     exported = start(simulator=False).export(folder, to=tmp_path / "robot")
-    result = build(exported.folder)
+    result = build(exported.folder, generators)
     assert result.returncode == 0, result.stdout + result.stderr
     check_installed(exported.folder, ["navigator", "obstacle_detector", "status_monitor"], "start_system.launch.py")
 
@@ -154,7 +170,7 @@ def test_an_ament_python_package(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("line", ["build", "build --symlink-install"])
-def test_a_workspace_that_was_built_here(tmp_path: Path, line: str) -> None:
+def test_a_workspace_that_was_built_here(tmp_path: Path, generators: Path, line: str) -> None:
     """The whole folder comes to a robot, with the build, install and log of the lesson's own colcon in it."""
     start(simulator=False).export("robot_controller", to=tmp_path)
     words = "py_demo --build-type ament_python --node-name hello --destination-directory src"
@@ -163,23 +179,14 @@ def test_a_workspace_that_was_built_here(tmp_path: Path, line: str) -> None:
     assert [colcon(world, line).code, colcon(world, line).code] == [0, 0]
     assert {"build", "install", "log"} <= {path.name for path in tmp_path.iterdir()}
     sources = {path: path.read_bytes() for path in (tmp_path / "src").rglob("*") if path.is_file()}
-    result = build(tmp_path)
+    result = build(tmp_path, generators)
     assert result.returncode == 0, result.stdout + result.stderr
     check_installed(tmp_path, ["navigator", "obstacle_detector", "status_monitor"], "start_system.launch.py")
     assert (tmp_path / "build/robot_controller/CMakeCache.txt").is_file()
     assert os.access(tmp_path / "install/py_demo/lib/py_demo/hello", os.X_OK)
     assert {path: path.read_bytes() for path in sources} == sources
-    again = real(f"{PYTHON} /usr/bin/colcon build", tmp_path)
+    again = build(tmp_path, generators)
     assert again.returncode == 0, again.stdout + again.stderr
-
-
-@pytest.fixture(scope="module")
-def generators(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The setup file of a workspace in which the stand-in is built."""
-    folder = tmp_path_factory.mktemp("generators")
-    result = build(folder)
-    assert result.returncode == 0, result.stdout + result.stderr
-    return folder / "install/local_setup.bash"
 
 
 ALIKE = [
@@ -193,9 +200,7 @@ ALIKE = [
 def test_what_is_wrong_is_said_alike(tmp_path: Path, generators: Path, name: str) -> None:
     """Every word of our message, advice and places left out, is in the real one, and the exit codes are the same."""
     BROKEN[name](make_package(tmp_path))
-    environment = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "LANG": "C.UTF-8"}
-    command = ["/bin/bash", "-c", f". {generators}; {PYTHON} /usr/bin/colcon build"]
-    theirs = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=300, check=False)
+    theirs = build(tmp_path, generators)
     shutil.rmtree(tmp_path / "build", ignore_errors=True)
     ours = colcon(open_world())
     assert ours.code == theirs.returncode
@@ -235,29 +240,37 @@ WRONG = {
     "nothing": lambda text: text,
 }
 CATKIN = """\
-import sys
+import json, sys
 from catkin_pkg.package import InvalidPackage, parse_package_string
-try:
-    parse_package_string(open(sys.argv[1]).read(), 'package.xml')
-except InvalidPackage as error:
-    print(error)
+said = {}
+for name, text in json.load(open(sys.argv[1])).items():
+    try:
+        parse_package_string(text, 'package.xml')
+        said[name] = ''
+    except InvalidPackage as error:
+        said[name] = str(error)
+print(json.dumps(said))
 """
 
 
+@pytest.fixture(scope="module")
+def refused(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """What the real reader says of each wrong package.xml, by its name."""
+    folder = tmp_path_factory.mktemp("catkin")
+    (folder / "texts.json").write_text(json.dumps({name: spoil(XML) for name, spoil in WRONG.items()}))
+    (folder / "ask.py").write_text(CATKIN)
+    done = real(f"{PYTHON} {folder}/ask.py {folder}/texts.json", folder)
+    assert done.returncode == 0, done.stderr
+    said: dict[str, str] = json.loads(done.stdout)
+    return said
+
+
 @pytest.mark.parametrize("name", WRONG)
-def test_our_reader_refuses_what_catkin_pkg_refuses(tmp_path: Path, name: str) -> None:
-    from xml.etree import ElementTree
-
-    from turtle_lesson.ros.ament.manifest import faults_in
-
+def test_our_reader_refuses_what_catkin_pkg_refuses(refused: dict[str, str], name: str) -> None:
     text = WRONG[name](XML)
     assert (text == XML) == (name == "nothing")
-    (tmp_path / "package.xml").write_text(text)
-    (tmp_path / "ask.py").write_text(CATKIN)
-    theirs = real(f"{PYTHON} {tmp_path}/ask.py {tmp_path}/package.xml", tmp_path)
-    assert theirs.returncode == 0, theirs.stderr
-    said = theirs.stdout
+    said = refused[name]
     ours = faults_in(ElementTree.fromstring(text))
-    assert bool(ours) == bool(said.strip()), (ours, said)
+    assert bool(ours) == bool(said), (ours, said)
     for fault in ours:
         assert fault in said

@@ -3,9 +3,10 @@
     python -m answers SOCKET    (in tests/; the number of a Unix socket that listens; `client.py` starts it)
 
 Each connection runs one page, which its first line names: {"page": …}. It then reads a request a line, and writes a reply a
-line (`server.py`); with {"restart": true} the one reply says what went wrong after restarts (`restart.py`). It ends when
-the connection does. {"cells": [[source, whether an error is wanted], …], "folder": …} is a learner's page in a folder that
-stays; the one reply holds the texts of the cells' results.
+line (`server.py`). With {"restart": true} the one reply says what went wrong after restarts (`restart.py`), with {"stopped":
+true} what went wrong when each cell was stopped once (`stopped.py`). It ends when the connection does. {"cells": [[source,
+whether an error is wanted], …], "folder": …} is a learner's page in a folder that stays; the one reply holds the texts of
+the cells' results.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ os.environ["TURTLE_LESSON_PROGRESS"] = "off"
 
 from turtle_lesson.lab.checks import navigation, page_10, probe
 from turtle_lesson.lab.checks.registry import all_checks
+from turtle_lesson.lab.picture import Picture
 from turtle_lesson.ros.sim import interrupts
 
-from . import restart
+from . import restart, stopped
 from .server import Kept, Page, results, serve, the_shell
 
 PATIENCE = 1.0
@@ -55,6 +57,11 @@ IMPORTS = (
 """What most pages import: once here, instead of once a page."""
 
 
+def draw_no_pictures() -> None:
+    """Have pictures be made, but not drawn, which takes a quarter of a page's time: nobody sees them, and nbval draws all."""
+    Picture.png = lambda self: b""  # type: ignore[method-assign]
+
+
 def run_page(connection: socket.socket) -> None:
     """Run the page that the first line names, in a fresh folder."""
     with connection, connection.makefile("rw", encoding="utf-8") as stream, tempfile.TemporaryDirectory() as scratch:
@@ -62,6 +69,7 @@ def run_page(connection: socket.socket) -> None:
         if "cells" in wanted:
             os.environ.pop("TURTLE_LESSON_FOLDER", None)  # the current one is the learner's
             os.chdir(wanted["folder"])
+            draw_no_pictures()
             stream.write(json.dumps(results(wanted["cells"])) + "\n")
             return
         folder = Path(scratch, "folder")
@@ -69,7 +77,12 @@ def run_page(connection: socket.socket) -> None:
         os.environ["TURTLE_LESSON_FOLDER"] = str(folder)
         os.chdir(folder)
         page = Page(wanted["page"], folder)
-        if wanted.get("restart"):
+        if not wanted.get("stopped"):
+            draw_no_pictures()
+        if wanted.get("stopped"):
+            cells = [(cell["source"], "raises-exception" in cell["tags"]) for cell in page.cells]
+            stream.write(json.dumps(stopped.problem(page.shell, cells, wanted["page"])) + "\n")
+        elif wanted.get("restart"):
             stream.write(json.dumps(restart.problems(page, wanted["page"])) + "\n")
         else:
             serve(page, Kept(folder, Path(scratch, "kept")), stream, stream)

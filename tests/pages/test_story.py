@@ -13,7 +13,7 @@ import nbformat
 import pytest
 from answers.client import PageServer
 from test_page_exercises import tagged
-from test_real_colcon import build, check_installed
+from test_real_colcon import build, check_installed, generators  # noqa: F401
 from test_real_colcon import pytestmark as with_colcon
 
 from turtle_lesson.learner.story import PAGES
@@ -78,8 +78,8 @@ def test_the_learners_own_three_nodes_pass_the_examination(page_server: PageServ
 
 
 @with_colcon
-def test_debians_colcon_builds_the_learners_package(folder: Path, tmp_path: Path) -> None:
+def test_debians_colcon_builds_the_learners_package(folder: Path, generators: Path, tmp_path: Path) -> None:  # noqa: F811
     shutil.copytree(folder / "workspace/src", tmp_path / "src")
-    done = build(tmp_path)
+    done = build(tmp_path, generators)
     assert done.returncode == 0, done.stdout + done.stderr
     check_installed(tmp_path, ["navigator", "obstacle_detector", "status_monitor"], "start_system.launch.py")

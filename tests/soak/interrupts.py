@@ -22,11 +22,10 @@ from pathlib import Path
 from random import Random
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "pages"))
 
 import kernels
+from answers.stopped import BUTTON
 from jupyter_client.manager import start_new_kernel
-from test_pages_interrupt import BUTTON
 
 ROOT = Path(__file__).resolve().parents[2]
 ANSWER = 240

@@ -94,14 +94,21 @@ def forget_below(folders: Iterable[Path]) -> None:
     """
     folders = tuple(folders)
     below = tuple(os.path.join(folder, "") for folder in folders)  # as texts: thousands of modules are slow as paths
-    for name, module in list(sys.modules.items()):
-        file = getattr(module, "__file__", None)
-        if isinstance(file, str) and file.startswith(below):
-            del sys.modules[name]
+    # Python notes each folder where it has looked for modules. Where it was none of these, no module need be looked at.
+    looked_in = [place for place in sys.path_importer_cache if os.path.join(place, "").startswith(below)]
+    if looked_in or any(str(folder.parent) in sys.path_importer_cache for folder in folders):
+        for place in looked_in:
+            del sys.path_importer_cache[place]
+        for name, module in list(sys.modules.items()):
+            file = getattr(module, "__file__", None)
+            if isinstance(file, str) and file.startswith(below):
+                del sys.modules[name]
     for folder in folders:
-        for compiled in list(folder.rglob("__pycache__")):
-            with suppress(PermissionError):
-                shutil.rmtree(files.check(compiled, removes=True), ignore_errors=True)
+        for place, inner, _ in os.walk(folder):
+            if "__pycache__" in inner:
+                inner.remove("__pycache__")
+                with suppress(PermissionError):
+                    shutil.rmtree(files.check(Path(place, "__pycache__"), removes=True), ignore_errors=True)
 
 
 # -- what can be wrong with a package, or with a name that was asked for, each said with what to try ---------------------

@@ -290,9 +290,10 @@ registry = Registry()
 
 def forget_modules(package: str) -> None:
     """Take a package's interface modules out of `sys.modules`; a real Python package of that name stays."""
-    below = f"{package}."
-    for name in [each for each in sys.modules if each.startswith(below) and each.split(".")[1] in FOLDERS]:
-        del sys.modules[name]
+    if not sys.modules.keys().isdisjoint(f"{package}.{folder}" for folder in FOLDERS):  # there are thousands of names
+        below = f"{package}."
+        for name in [each for each in sys.modules if each.startswith(below) and each.split(".")[1] in FOLDERS]:
+            del sys.modules[name]
     outer = sys.modules.get(package)
     if outer is None:
         return
