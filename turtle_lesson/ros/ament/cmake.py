@@ -114,10 +114,7 @@ def _tokens(text: str) -> Iterator[Token]:
 
 
 def read_calls(text: str) -> list[Call]:
-    """All commands of the text, in order.
-
-    Raises BuildFailure where the text is no CMake, or its blocks are not nested.
-    """
+    """All commands of the text, in order. Raises BuildFailure where it is no CMake, or its blocks are not nested."""
     tokens = _tokens(text)
     calls = []
     for token in tokens:
@@ -153,11 +150,9 @@ def _arguments(tokens: Iterator[Token], name: Token) -> Iterator[Token]:
     raise _unreadable('Parse error. Function missing ending ")". End of file reached.', name.line, name.line, reason)
 
 
-_NOT_NESTED = "Flow control statements are not properly nested."
-
-
 def _check_blocks(calls: Sequence[Call]) -> None:
     """Every `if` and every loop is closed, in the right order."""
+    words = "Flow control statements are not properly nested."
     opened: list[Call] = []
     for call in calls:
         if call.name in _ENDS.values():
@@ -167,12 +162,12 @@ def _check_blocks(calls: Sequence[Call]) -> None:
             if not opened or opened[-1].name != start:
                 article = "an" if start == "if" else "a"
                 reason = f"{call.name}() without {article} {start}() before it"
-                raise _unreadable(_NOT_NESTED, f"{call.line} ({call.name})", call.line, reason)
+                raise _unreadable(words, f"{call.line} ({call.name})", call.line, reason)
             if call.name in _ENDS:
                 opened.pop()
     if opened:
         line, name = opened[-1].line, opened[-1].name
-        raise _unreadable(_NOT_NESTED, f"{line} ({name})", line, f"this {name}() has no end{name}()")
+        raise _unreadable(words, f"{line} ({name})", line, f"this {name}() has no end{name}()")
 
 
 # -- conditions ----------------------------------------------------------------------------------------------------------

@@ -56,10 +56,7 @@ class PackageIndex:
         return sorted(self._layers)
 
     def get(self, name: str) -> Package:
-        """The package of this name.
-
-        Raises PackageNotFoundError with the real text, and with the name that was perhaps meant.
-        """
+        """The package of this name. Raises PackageNotFoundError with the real text, and the name that was perhaps meant."""
         if name in self._layers:
             return self._layers[name][-1]
         text = f"package '{name}' not found, searching: {self.search_path()}"

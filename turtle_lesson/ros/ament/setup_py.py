@@ -26,10 +26,7 @@ class SetupError(Exception):
 
 
 def read_setup(folder: Path) -> dict[str, Any]:
-    """What the package's `setup.py` gives to `setup(…)`.
-
-    Raises SetupError where it fails, does not end, or never calls `setup`.
-    """
+    """What `setup.py` gives to `setup(…)`. Raises SetupError where it fails, does not end, or never calls `setup`."""
     import subprocess  # which the program does not need: it starts sooner
     import tempfile
 

@@ -208,10 +208,7 @@ def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | N
 
 
 def checked_build(found: Found, environment: Environment) -> Outcome:
-    """What a build makes of a package.
-
-    Raises PackageError where a real build would refuse the package, with the build's own words.
-    """
+    """What a build makes of a package. Raises PackageError, in a real build's words, where that would refuse it."""
     if not found.buildable:
         hint = build_type_hint(found.build_type)
         raise PackageError(f"the build_type '{found.build_type}' is unknown", found.path / "package.xml", hint=hint)

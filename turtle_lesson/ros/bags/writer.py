@@ -74,10 +74,7 @@ class BagWriter:
         return not self._end.alive
 
     def add_topic(self, topic: str, message_class: Any, offered: Sequence[QoSProfile]) -> None:
-        """Make a topic known, with the profiles of its publishers.
-
-        Raises UnrecordableType for a type that no bag can hold.
-        """
+        """Make a topic known, with its publishers' profiles. Raises UnrecordableType for a type that no bag can hold."""
         text = schema_text(message_class)
         self._connections[topic, message_class._TYPE_NAME] = self._writer.add_connection(
             topic,

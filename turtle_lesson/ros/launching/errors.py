@@ -52,10 +52,7 @@ class LaunchError(Exception):
 
 
 def find_launch_file(world: World, package: str, file_name: str) -> Path:
-    """The launch file of this name that a package has installed.
-
-    Raises LaunchError with the words of `ros2 launch`, and what to try.
-    """
+    """The launch file of this name of a package. Raises LaunchError in `ros2 launch`'s words, with what to try."""
     try:
         return index.find_launch_file(world.packages, package, file_name)
     except PackageNotFoundError as error:

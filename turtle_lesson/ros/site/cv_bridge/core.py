@@ -53,10 +53,7 @@ class CvBridge:
         return TYPES[_DEPTHS[cvtype & 7]], (cvtype >> 3) + 1
 
     def encoding_to_cvtype2(self, encoding: str) -> int:
-        """The number of OpenCV's type for an encoding, such as 16 for "bgr8".
-
-        Raises CvBridgeError if there is no such encoding.
-        """
+        """The number of OpenCV's type for an encoding, 16 for "bgr8". Raises CvBridgeError if there is none."""
         if found := _COLOURS.fullmatch(encoding):
             depth, channels = f"{found[3]}U", 1 if found[1] else 4 if found[2] else 3
         elif found := _BAYER.fullmatch(encoding):
@@ -138,10 +135,7 @@ class CvBridge:
         return image if desired_encoding == "passthrough" else self._convert(image, "bgr8", desired_encoding)
 
     def cv2_to_compressed_imgmsg(self, cvim: Array, dst_format: str = "jpg") -> CompressedImage:
-        """The compressed message for an image.
-
-        Raises TypeError if the image is no array, and ImportError if OpenCV is not installed.
-        """
+        """The compressed message for an array; TypeError for what is none, ImportError if OpenCV is not installed."""
         _check_array(cvim)
         data = _opencv().imencode(f".{dst_format}", cvim)[1]
         return CompressedImage(format=dst_format, data=array("B", data.tobytes()))

@@ -72,10 +72,7 @@ def text_of(context: LaunchContext, given: SomeSubstitutionsType) -> str:
 
 
 def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
-    """A plain value as it is; a substitution's text made a value of `kind`.
-
-    Raises TypeError if it is no such value.
-    """
+    """A plain value as it is; a substitution's text made a value of `kind`. Raises TypeError if it is no such value."""
     if isinstance(value, kind) and not isinstance(value, Substitution):
         return value
     if kind is float and isinstance(value, int) and not isinstance(value, bool):
@@ -124,10 +121,7 @@ def is_instance_of(value: Any, data_type: Any = None, can_be_str: bool = False) 
 
 
 def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) -> Any:
-    """Text made a value of a type; None leaves it to YAML's rules.
-
-    Raises ValueError if it is no such value, unless it `can_be_str`.
-    """
+    """Text made a value of a type (None: by YAML's rules). Raises ValueError if it is none, unless it `can_be_str`."""
     kind, is_list = (None, False) if data_type is None else extract_type(data_type)
     try:
         if kind in (int, float, str) and not is_list:

@@ -103,10 +103,7 @@ class Parser(frontend.Parser):
 
     @classmethod
     def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
-        """The root entity of a text.
-
-        Raises yaml.YAMLError if it is no YAML, and RuntimeError if it has not exactly one root.
-        """
+        """The root entity of a text. Raises yaml.YAMLError if it is no YAML, and RuntimeError for several roots."""
         try:
             tree = _tree(text, name)
         except yaml.MarkedYAMLError as error:

@@ -127,10 +127,7 @@ class ExecuteLocal(Action):
 
 
 def _on_screen(context: LaunchContext, output: Any) -> set[str]:
-    """Which of `stdout` and `stderr` reach the screen.
-
-    Raises ValueError for a value of `output` that launch does not know.
-    """
+    """Which of `stdout` and `stderr` reach the screen. Raises ValueError for an unknown value of `output`."""
     if isinstance(output, Mapping):
         shown: set[str] = set()
         for name, where in output.items():
