@@ -100,7 +100,10 @@ add_verbs("service", "srv", SERVICES, services, of_list="The names of the servic
 
 @verb("service info", name_argument("service", SERVICES[0]))
 def service_info(args: Namespace) -> None:
-    """A service's type, and how many servers and clients it has. Humble lacks this verb, and newer releases have it."""
+    """A service's type, and how many servers and clients it has.
+
+    Humble lacks this verb, and newer releases have it.
+    """
     with direct_node(args) as node:
         name = args.service_name
         types = types_of("service", name, services(node, include_hidden=True))

@@ -220,7 +220,10 @@ LIST_PATIENCE = 1.0
     arg("--filter", "Only names whose beginning this regular expression matches", metavar="FILTER"),
 )
 def list_parameters(args: Namespace) -> None:
-    """The names of the parameters. A node of which nothing is listed is left out (ros2param/verb/list.py)."""
+    """The names of the parameters.
+
+    A node of which nothing is listed is left out (ros2param/verb/list.py).
+    """
 
     import re
 
