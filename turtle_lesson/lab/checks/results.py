@@ -319,7 +319,7 @@ def unreturned(strands: list[Strand]) -> list[str]:
     found = []
     for strand in strands:
         calls: list[Call] = []
-        frame = strand.gr_frame
+        frame = strand.frame
         while frame is not None:
             calls.insert(0, (frame, frame.f_lineno))
             frame = frame.f_back

@@ -21,7 +21,6 @@ from functools import partial
 from pathlib import Path, PurePath
 from typing import Any, NoReturn
 
-from greenlet import getcurrent
 from launch import LaunchDescription, LaunchService
 from launch.actions import IncludeLaunchDescription
 from launch.actions._processes import Program
@@ -34,7 +33,7 @@ from ..ament.package import ExecutableNotFoundError, NotHereError, PackageNotFou
 from ..runtime.world import current_world
 from ..sim.errors import shown_path
 from ..sim.process import INTERRUPTED
-from ..sim.strand import Strand
+from ..sim.strand import running_strand
 from ..stdlib.ownership import notebook_here
 from .errors import LaunchError, find_launch_file
 
@@ -258,7 +257,7 @@ def plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
         notebook_here()
     )  # a cell, or a launch file that it loads, may run `ros2` commands, which only the world has
     of_cell = notebook is not None and not notebook.simulation.running and line.split()[:1] == ["ros2"]
-    if not line.strip() or not (of_cell or type(getcurrent()) is Strand):
+    if not line.strip() or not (of_cell or running_strand() is not None):
         return None
     if line.startswith("ros2 launch ") and not (shell and set(line) & set(";&|<>")):
         words = line.split() if shell else words

@@ -140,7 +140,7 @@ class Callback:
     awaits: bool
     arrivals: deque[int] | None = None
     open: list[tuple[int, int]] = field(default_factory=list)
-    _newest: list[Run] = field(default_factory=list)
+    newest: list[Run] = field(default_factory=list)
     _packed: list[bytes] = field(default_factory=list)  # a deque takes half a kB while it is empty, as most stay
 
     def end_run(self, begun: tuple[int, int], now: int) -> None:
@@ -149,17 +149,20 @@ class Callback:
             self.open.pop()
         else:
             self.open.remove(begun)
-        newest = self._newest
-        newest.append((begun[0], begun[1], now))
-        if len(newest) == CHUNK:
-            self._packed.append(struct.pack(f"={3 * CHUNK}q", *chain.from_iterable(newest)))
-            newest.clear()
-            del self._packed[: -(LIMIT // CHUNK)]
+        self.newest.append((begun[0], begun[1], now))
+        if len(self.newest) == CHUNK:
+            self.pack()
+
+    def pack(self) -> None:
+        """Pack the newest runs, which take less room so."""
+        self._packed.append(struct.pack(f"={3 * CHUNK}q", *chain.from_iterable(self.newest)))
+        self.newest.clear()
+        del self._packed[: -(LIMIT // CHUNK)]
 
     @property
     def ended(self) -> list[Run]:
         """The runs that are over, in the order in which they ended."""
-        return [*struct.iter_unpack("=3q", b"".join(self._packed)), *self._newest][-LIMIT:]
+        return [*struct.iter_unpack("=3q", b"".join(self._packed)), *self.newest][-LIMIT:]
 
     def runs(self, now: int) -> np.ndarray:
         """All runs, of type `RUN`, in the order in which they began; what goes on ends `now` (ns)."""

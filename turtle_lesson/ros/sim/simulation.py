@@ -24,7 +24,7 @@ from greenlet import GreenletExit
 from .errors import OutOfTime, SimulationError, WorldClosed
 from .interrupts import Guard
 from .keyboard import Keyboard
-from .strand import Cell, Face, LoopAside, Strand, running_greenlet, running_strand
+from .strand import Carrier, Cell, Face, LoopAside, Strand, running_greenlet, running_strand
 
 if TYPE_CHECKING:
     from .stepped_call import SteppedCall
@@ -42,7 +42,7 @@ NEVER = 2**63
 PATIENCE = 3
 """How often a strand that does not want to end is told to, when its world closes."""
 
-_undead: list[Strand] = []
+_undead: list[Strand | Carrier] = []
 """Strands that did not end then. They are kept: one that Python collects would be unwound in the middle of any other code,
 and would take the notebook's event loop for its own."""
 
@@ -80,6 +80,8 @@ class Simulation(Face):
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
         self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
+        self._carriers: list[Carrier] = []
+        self._idle_carriers: list[Carrier] = []
         self.keyboard = Keyboard(self)
 
     # -- asking for things to happen -------------------------------------------------------------------------
@@ -305,6 +307,8 @@ class Simulation(Face):
             for strand in self._strands:
                 if not strand.dead:
                     strand.parent = hub
+            for carrier in self._carriers:
+                carrier.parent = hub
 
     def _loop(self) -> None:
         """What the hub does: let strands go on until nothing is left to do, or the run is halted."""
@@ -312,6 +316,8 @@ class Simulation(Face):
         while True:
             strand = self._next_strand()
             if strand is not None:
+                if strand.body is None and not self._idle_carriers:
+                    self._add_carrier()
                 self._go_on_with(strand)
             elif self._for_the_hub:
                 self._leave()
@@ -337,11 +343,15 @@ class Simulation(Face):
         return None
 
     def _go_on_with(self, strand: Strand) -> None:
+        if strand.body is None:
+            self._ready.appendleft(strand)
+            self._idle_carriers.pop().switch()
+            return
         if strand.process is not self._face:
             self._enter(strand.process)
         if strand.cell is not self._cell:
             self._cell.show_to(strand)  # or what it prints would go to an earlier cell
-        strand.switch()
+        strand.body.switch()
 
     def park(self, strand: Strand) -> None:
         """Stop the running strand until it is woken, or now and then for nothing: callers look in a loop.
@@ -351,16 +361,78 @@ class Simulation(Face):
         """
         strand.parked = True
         following = self._next_strand()
-        if following is strand:
-            return
-        if following:
-            self._go_on_with(following)
+        if following is not strand:
+            self._hand_over_to(following)
+        if strand.body is None:
+            strand.body = strand  # it goes on itself, and not in a turn
+
+    def _hand_over_to(self, strand: Strand | None) -> None:
+        """Have another strand go on, or the hub decide what happens now."""
+        if strand and (strand.body is not None or self._idle_carriers):
+            self._go_on_with(strand)
             return
         if (
-            following is not None
-        ):  # it has not begun: begun from here, it would count the calls of this strand as its own
-            self._ready.appendleft(following)
+            strand is not None
+        ):  # what begins here, this strand or a carrier, would count the calls on this stack as its own
+            self._ready.appendleft(strand)
         self.hub.switch()
+
+    # -- turns -----------------------------------------------------------------------------------------------
+
+    def take_turns(self, strand: Strand, turn: Callable[[], bool]) -> None:
+        """Call `turn()` now and each time that the strand is woken, until it returns False.
+
+        What it raises is raised here.
+        """
+        if strand is not running_greenlet():  # its stack is a carrier's, and has calls of its own that wait for this
+            while turn():
+                self.park(strand)
+            return
+        while turn():
+            strand.turn, strand.context, strand.body = turn, strand.gr_context, None
+            self.park(strand)
+            if strand.turn is None:  # a carrier has taken the last one
+                if strand.failure is not None:
+                    raise strand.taken_failure()
+                return
+
+    def _add_carrier(self) -> None:
+        carrier = Carrier(self._carry)
+        carrier.parent = self.hub
+        self._carriers.append(carrier)
+        self._idle_carriers.append(carrier)
+
+    def _carry(self) -> None:
+        """What a carrier does: take the turns of strands, one after the other, in the order in which they were woken."""
+        carrier: Any = running_greenlet()
+        ready = self._ready
+        while True:
+            strand = ready.popleft() if ready and not self._halted else self._next_strand()
+            if strand is None or strand.body is not None:
+                carrier.strand = None
+                self._idle_carriers.append(carrier)
+                self._hand_over_to(strand)
+                continue
+            if strand is not carrier.strand:
+                if strand.process is not self._face:
+                    self._enter(strand.process)
+                if strand.cell is not self._cell:
+                    self._cell.show_to(strand)
+                carrier.strand = strand
+                carrier.gr_context = strand.context
+            strand.body = carrier
+            try:
+                waits = strand.turn()
+            except BaseException as error:
+                strand.failure, waits = error, False
+            if waits:
+                strand.body = None
+                strand.parked = True
+            else:
+                strand.body, strand.turn = strand, None
+                carrier.strand = None
+                self._idle_carriers.append(carrier)
+                self._go_on_with(strand)
 
     def halt(self) -> None:
         """Stop the loop as soon as the running strand lets go, even if it only looks at the clock in a loop."""
@@ -383,7 +455,11 @@ class Simulation(Face):
                 for _ in range(PATIENCE):
                     if strand and not strand.dead and not strand.warned:
                         self._unwind(strand)
+        for carrier in self._idle_carriers:
+            carrier.parent = running_greenlet()
+            carrier.throw(GreenletExit)
         _undead.extend(strand for strand in self._strands if strand and not strand.dead)
+        _undead.extend(carrier for carrier in self._carriers if carrier and not carrier.dead)
         self._heap.clear()
         self._ready.clear()
 

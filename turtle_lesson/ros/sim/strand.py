@@ -6,9 +6,11 @@ import asyncio
 import sys
 from collections.abc import Callable, Sequence
 from contextvars import Context, ContextVar, copy_context
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from greenlet import GreenletExit, getcurrent, greenlet
+from greenlet import GreenletExit, greenlet
+from greenlet import getcurrent as running_greenlet
 
 if TYPE_CHECKING:
     from ..stdlib.program import ProgramModules
@@ -16,9 +18,9 @@ if TYPE_CHECKING:
     from .simulation import Simulation
 
 __all__ = [
+    "Carrier",
     "GreenletExit",
     "Strand",
-    "getcurrent",
     "greenlet",
     "running_greenlet",
     "running_strand",
@@ -31,6 +33,9 @@ __all__ = [
 # greenlet (https://greenlet.readthedocs.io). Nothing else in the project imports greenlet.
 # A strand is *parked* (waits until somebody wakes it), *ready* (queued to go on at this instant), *running* or
 # *dead*. The hub is the greenlet that runs the simulation's loop: the notebook cell itself.
+# A strand that spins an executor does the same each time that it is woken: it takes a *turn*. To switch to its stack for
+# that would cost more than most callbacks, so a carrier takes the turns of all such strands on one stack, its own. Only
+# where a callback waits does that stack become the strand's, until the turn is over; another carrier then does the work.
 
 
 class Strand(greenlet):
@@ -49,12 +54,19 @@ class Strand(greenlet):
         name: what it is called, if nobody gives it another name.
         thread: the `threading.Thread` that it is, once somebody has asked.
         calls: functions to be called in it where it waits, such as handlers of signals.
+        body: the greenlet on whose stack it stopped; None while it waits for turns, which any carrier takes.
+        turn: what it does in a turn; it returns whether the strand waits for another one.
+        context: its context variables, while it waits for turns.
+        failure: what its last turn has raised, until it goes on itself.
     """
 
     __slots__ = (  # each switch reads some of them, and the dictionary of a greenlet is slow
         "activity",
+        "body",
         "calls",
         "cell",
+        "context",
+        "failure",
         "frozen_at",
         "may_act",
         "name",
@@ -62,6 +74,7 @@ class Strand(greenlet):
         "process",
         "simulation",
         "thread",
+        "turn",
         "waits_for",
         "warned",
     )
@@ -80,6 +93,10 @@ class Strand(greenlet):
         self.name = ""
         self.thread: Any = None
         self.calls: Sequence[Callable[[], object]] = ()
+        self.body: greenlet | None = self
+        self.turn: Any = None
+        self.context: Context | None = None
+        self.failure: BaseException | None = None
         self.parent = process.simulation.hub  # type: ignore[misc]
         process.simulation.know(self)
 
@@ -89,30 +106,52 @@ class Strand(greenlet):
 
     def go_on(self) -> None:
         """Go on out of turn (called by the hub)."""
-        self.parked = False
-        self.parent = self.simulation.hub
-        self.switch()
+        self._own_body().switch()
 
     def raise_inside(self, error: BaseException) -> None:
         """Go on, with `error` raised at the place where the strand stopped (called by the hub)."""
+        self._own_body().throw(error)
+
+    def _own_body(self) -> greenlet:
+        """The greenlet on whose stack it stopped, which is about to go on."""
         self.parked = False
-        self.parent = self.simulation.hub
-        self.throw(error)
+        if self.body is None:
+            self.body = self
+        self.parent = self.body.parent = self.simulation.hub
+        return self.body
+
+    @property
+    def frame(self) -> FrameType | None:
+        """The innermost call in which it has stopped."""
+        return self.gr_frame if self.body is None else self.body.gr_frame
+
+    def taken_failure(self) -> BaseException:
+        """What its last turn has raised, once."""
+        failure, self.failure = self.failure, None
+        assert failure is not None
+        return failure
 
     def __repr__(self) -> str:
         state = "dead" if self.dead else "parked" if self.parked else "ready or running"
         return f"<Strand of {self.process.name}, {state}>"
 
 
+class Carrier(greenlet):
+    """A stack on which turns are taken. `strand` is the one whose turn it is; None while it does nothing."""
+
+    __slots__ = ("strand",)
+
+    def __init__(self, target: Callable[[], Any]) -> None:
+        super().__init__(target)
+        self.strand: Strand | None = None
+
+
 def running_strand() -> Strand | None:
     """The strand that runs now, or None in plain Python code such as a notebook cell."""
-    current = getcurrent()
+    current = running_greenlet()
+    if type(current) is Carrier:
+        return current.strand
     return current if type(current) is Strand else None
-
-
-def running_greenlet() -> greenlet:
-    """The greenlet that runs now, whatever it is: what the simulation takes as its hub."""
-    return getcurrent()
 
 
 # -- cell context -------------------------------------------------------------------------------------------------

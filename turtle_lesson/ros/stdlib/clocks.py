@@ -13,10 +13,8 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from greenlet import getcurrent
-
 from ..sim.simulation import EPOCH, NANOSECONDS
-from ..sim.strand import Strand
+from ..sim.strand import Strand, running_strand
 
 real_sleep = time.sleep
 real_monotonic = time.monotonic
@@ -24,8 +22,8 @@ real_monotonic = time.monotonic
 
 def _seconds(origin: int) -> Callable[..., float]:
     def read(real: Callable[[], float]) -> float:
-        strand = getcurrent()
-        if type(strand) is Strand:
+        strand = running_strand()
+        if strand is not None:
             return (origin + strand.simulation.read_clock()) / NANOSECONDS
         return real()
 
@@ -34,8 +32,8 @@ def _seconds(origin: int) -> Callable[..., float]:
 
 def _nanoseconds(origin: int) -> Callable[..., int]:
     def read(real: Callable[[], int]) -> int:
-        strand = getcurrent()
-        if type(strand) is Strand:
+        strand = running_strand()
+        if strand is not None:
             return origin + strand.simulation.read_clock()
         return real()
 

@@ -16,13 +16,11 @@ from collections.abc import Callable, Iterator, Sequence
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from greenlet import getcurrent
-
 from .. import hooks
 from ..sim.errors import NeverWakes
 from ..sim.run_blocking import LOCK
 from ..sim.simulation import CLOCK_READ
-from ..sim.strand import Strand
+from ..sim.strand import Strand, running_strand
 from .ownership import notebook_here
 
 if TYPE_CHECKING:
@@ -199,7 +197,7 @@ def wait_of(strand: Strand) -> str:
     """What a strand waits for, as it stands in the program: `Queue.get`, `the lock`, `the call of /add`."""
     if isinstance(strand.waits_for, str):
         return strand.waits_for
-    frame = sys._getframe(1) if strand is getcurrent() else strand.gr_frame
+    frame = sys._getframe(1) if strand is running_strand() else strand.frame
     called = _called_in(frame)
     if not called and strand is strand.simulation.driven:
         called = _called_in(strand.simulation.hub.gr_frame)  # the cell, for which it waits
@@ -249,8 +247,8 @@ FREE_LOOKS = 1_000
 
 def looked_in_vain() -> bool:
     """Count a look that found nothing, by a program or by the code of a cell. False, so that one can write `x or …`."""
-    strand = getcurrent()
-    if type(strand) is Strand:
+    strand = running_strand()
+    if strand is not None:
         count_look(strand.simulation)
     elif (notebook := notebook_here()) is not None:
         count_look(notebook.simulation)
@@ -271,8 +269,8 @@ def is_set(self: threading.Event) -> bool:
     """Return true if and only if the internal flag is true."""
     if self._flag:  # type: ignore[attr-defined]
         return True
-    strand = getcurrent()
-    if type(strand) is Strand:
+    strand = running_strand()
+    if strand is not None:
         count_look(strand.simulation)
     return False
 
@@ -322,6 +320,6 @@ def _only_looks(body: list[ast.stmt]) -> bool:
 
 def another_look() -> None:
     """A round of a busy loop: time passes, if there is another thread that could end it."""
-    strand = getcurrent()
-    if type(strand) is Strand and len(strand.process.strands) > 1:
+    strand = running_strand()
+    if strand is not None and len(strand.process.strands) > 1:
         strand.simulation.read_clock(ROUND)

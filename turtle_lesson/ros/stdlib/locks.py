@@ -14,8 +14,6 @@ from _thread import allocate_lock
 from collections import deque
 from typing import Any
 
-from greenlet import getcurrent
-
 from ..sim.errors import WorldClosed
 from ..sim.run_blocking import drive
 from ..sim.simulation import NANOSECONDS
@@ -51,8 +49,8 @@ class VirtualLock:
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
         """Take the lock, waiting for it if `blocking`, at most `timeout` seconds; whether it was taken."""
-        asking = getcurrent()
-        if type(asking) is Strand:
+        asking = running_strand()
+        if asking is not None:
             count_look(asking.simulation)  # queues are asked with their lock
         if not self._lock.acquire(False):
             allocate_lock().acquire(blocking, timeout)  # which refuses what a real one refuses
@@ -63,7 +61,7 @@ class VirtualLock:
                 return self._acquire_outside(timeout)
             if not self._wait(strand, None if timeout < 0 else strand.simulation.now + nanoseconds(timeout)):
                 return False
-        if type(asking) is Strand:
+        if asking is not None:
             self.owner = asking
         return True
 
@@ -167,7 +165,7 @@ class _OwnedLock(VirtualLock):
 def condition_wait(real: Any, self: Any, timeout: float | None = None) -> bool:
     """`threading.Condition.wait`, with a waiter that is a virtual lock where one is needed."""
     virtual = isinstance(self._lock, (VirtualLock, VirtualRLock))
-    if virtual or (type(getcurrent()) is Strand and not is_for_everybody(sys._getframe(1))):
+    if virtual or (running_strand() is not None and not is_for_everybody(sys._getframe(1))):
         return _wait_for_notice(self, timeout)
     return real(self, timeout)
 
@@ -195,8 +193,8 @@ def rlock(real: Any, *arguments: Any, **keywords: Any) -> Any:
 
 def peek(real: Any) -> float:
     """A clock for waiting with a time limit: unlike `time.monotonic`, looking at it takes no virtual time."""
-    strand = getcurrent()
-    if type(strand) is Strand:
+    strand = running_strand()
+    if strand is not None:
         return strand.simulation.now / NANOSECONDS
     notebook = notebook_here()
     if notebook is not None and is_virtual(sys._getframe(1).f_locals.get("self")):

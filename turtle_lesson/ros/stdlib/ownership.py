@@ -21,11 +21,11 @@ from inspect import CO_OPTIMIZED
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from greenlet import getcurrent, greenlet
+from greenlet import greenlet
 
 from ..sim.errors import is_library
 from ..sim.interrupts import JUPYTER
-from ..sim.strand import Strand
+from ..sim.strand import running_strand
 
 if TYPE_CHECKING:
     from ..sim.process import Process
@@ -52,8 +52,8 @@ class Notebook:
 
 def process_here() -> Process | None:
     """The simulated process that a thing made here belongs to; None if it is to be Python's own."""
-    strand = getcurrent()
-    if type(strand) is Strand:
+    strand = running_strand()
+    if strand is not None:
         return None if is_for_everybody(sys._getframe(1)) else strand.process
     notebook = notebook_here()
     return notebook if notebook is not None and is_called_by_learner() else None
@@ -99,7 +99,7 @@ def maker(frame: FrameType | None) -> FrameType | None:
 
 def in_no_strand(real: Callable[..., Any], *arguments: Any, **keywords: Any) -> Any:
     """Do as in plain code, also where a strand calls: it waits for real threads, in real time."""
-    if type(getcurrent()) is not Strand:
+    if running_strand() is None:
         return real(*arguments, **keywords)
     aside = greenlet(real)
     aside.gr_context = copy_context()

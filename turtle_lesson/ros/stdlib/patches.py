@@ -23,11 +23,9 @@ from pkgutil import resolve_name
 from types import MethodType, ModuleType
 from typing import Any, NamedTuple
 
-from greenlet import getcurrent
-
 from ..idl.registry import install_finder, uninstall_finder
-from ..sim import interrupts
-from ..sim.strand import Strand
+from ..sim import interrupts, strand
+from ..sim.strand import running_strand
 from . import (
     asyncio_loops,
     clocks,
@@ -95,8 +93,8 @@ def _in_process(
     """
 
     def call(real: Any, *arguments: Any, **keywords: Any) -> Any:
-        strand = getcurrent()
-        if type(strand) is Strand and (cells or not strand.process.is_notebook):
+        strand = running_strand()
+        if strand is not None and (cells or not strand.process.is_notebook):
             return function(strand, *arguments, **keywords)
         return real(*arguments, **keywords)
 
@@ -367,10 +365,7 @@ def original(owner: Any, name: str) -> Any:
 
 def _at_exit() -> None:
     """Nothing may ask which greenlet runs while Python takes itself apart; then put all originals back."""
-    ours = __name__.partition(".")[0]
-    for name, module in list(sys.modules.items()):
-        if name.startswith(ours) and name != "turtle_lesson.ros.sim.strand" and hasattr(module, "getcurrent"):
-            module.getcurrent = lambda: None  # type: ignore[attr-defined]
+    strand.running_greenlet = lambda: None
     _take_out()
 
 

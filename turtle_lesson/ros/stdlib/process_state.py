@@ -10,8 +10,6 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any
 
-from greenlet import getcurrent
-
 from ..sim.errors import is_library
 from ..sim.process import Process
 from ..sim.simulation import NANOSECONDS, be_careful
@@ -70,8 +68,8 @@ def encoded(variables: Mapping[str, str] | None, name: str, default: str) -> dic
 
 def _own() -> dict[Any, Any] | None:
     """The variables of the simulated process that runs, if one does."""
-    strand = getcurrent()
-    return strand.process.environ if type(strand) is Strand else None
+    strand = running_strand()
+    return strand.process.environ if strand is not None else None
 
 
 # -- modules -----------------------------------------------------------------------------------------------------------
@@ -122,8 +120,8 @@ def drawing(name: str) -> Callable[..., Any]:
 
 def random(real: Callable[[], float]) -> float:
     """`random.random`, which is by far the most used, and so is spelled out."""
-    strand = getcurrent()
-    return strand.process.random.random() if type(strand) is Strand else real()
+    strand = running_strand()
+    return strand.process.random.random() if strand is not None else real()
 
 
 class _NumpyState:
@@ -147,8 +145,8 @@ def numpy_drawing(name: str) -> Callable[..., Any]:
 
 def default_rng(real: Callable[..., Any], seed: Any = None) -> Any:
     """`numpy.random.default_rng`: without a seed, it is seeded by the process's own random numbers."""
-    strand = getcurrent()
-    if seed is None and type(strand) is Strand:
+    strand = running_strand()
+    if seed is None and strand is not None:
         seed = strand.process.random.getrandbits(64)
     return real(seed)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from greenlet import GreenletExit, getcurrent
+from greenlet import GreenletExit
 
 from ..sim.errors import format_error, learners_frames
 from ..sim.run_blocking import drive
@@ -117,8 +117,8 @@ def _tell(thread: threading.Thread, strand: Strand, error: BaseException) -> Non
 
 def sleep(real: Callable[[float], None], seconds: float, /) -> None:
     """`time.sleep`: in a simulated process it holds up this strand alone, in virtual time."""
-    strand = getcurrent()
-    if type(strand) is not Strand:
+    strand = running_strand()
+    if strand is None:
         if not _sleep_of_a_cell(seconds):
             real(seconds)
         return
@@ -205,18 +205,18 @@ IDENTITY: dict[str, Callable[[Strand], Any]] = {
 
 def main_thread(real: Any) -> threading.Thread:
     """The main thread of the running process."""
-    strand = getcurrent()
-    if type(strand) is not Strand or strand.process.main_strand is None:
+    strand = running_strand()
+    if strand is None or strand.process.main_strand is None:
         return real()
     return thread_of(strand.process.main_strand)
 
 
 def enumerate(real: Any) -> list[threading.Thread]:
     """The threads that live in the running process."""
-    strand = getcurrent()
-    if type(strand) is Strand and strand.process.main_strand is not None:
+    strand = running_strand()
+    if strand is not None and strand.process.main_strand is not None:
         return _threads(strand.process)
-    process = strand.process if type(strand) is Strand else notebook_here()
+    process = strand.process if strand is not None else notebook_here()
     return real() + (_threads(process) if process is not None else [])
 
 
@@ -283,11 +283,11 @@ class NotInStrands:
         self._lock = real
 
     def __enter__(self) -> None:
-        if type(getcurrent()) is not Strand:
+        if running_strand() is None:
             self._lock.acquire()
 
     def __exit__(self, *error: object) -> None:
-        if type(getcurrent()) is not Strand:
+        if running_strand() is None:
             self._lock.release()
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.runtime.world import current_process
-from turtle_lesson.ros.sim.strand import Strand, getcurrent
+from turtle_lesson.ros.sim.strand import running_strand
 
 from ._blocking import drive, in_a_plain_cell, spin_live
 from ._hints import explain_missing
@@ -148,8 +148,8 @@ def create_node(
 
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
     """Run one callback of the node, or wait until the timeout (s) for one to become ready; None waits forever."""
-    strand = getcurrent()
-    if type(strand) is not Strand:
+    strand = running_strand()
+    if strand is None:
         drive(spin_once, node, executor=executor, timeout_sec=timeout_sec)
         return
     executor = _executor_of(strand.process) if executor is None else executor
@@ -184,8 +184,8 @@ def spin_until_future_complete(
     node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
     """Run the node's callbacks until the future is done, or the timeout (s) has passed; None waits forever."""
-    strand = getcurrent()
-    if type(strand) is not Strand:
+    strand = running_strand()
+    if strand is None:
         drive(spin_until_future_complete, node, future, executor, timeout_sec)
         return
     executor = _executor_of(strand.process) if executor is None else executor

@@ -68,7 +68,7 @@ def callbacks_around(frame: FrameType | None = None) -> list[Any]:
 
 def advice_for_callbacks(strand: Strand) -> str:
     """What to do if it is a callback that waits for another one that cannot run."""
-    frame = sys._getframe(1) if strand is running_strand() else strand.gr_frame
+    frame = sys._getframe(1) if strand is running_strand() else strand.frame
     if not callbacks_around(frame):
         return ""
     return (

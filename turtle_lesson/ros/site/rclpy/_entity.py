@@ -11,6 +11,8 @@ from collections.abc import Callable
 from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
+from turtle_lesson.ros.rmw.trace import CHUNK
+
 from ._hints import explain_call
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, begin_of, end_of
 from .exceptions import refuse_destroyed, refuse_ended
@@ -60,7 +62,7 @@ class Entity:
         now a timer, now a subscription, and take twice as long.
         """
         super().__init_subclass__(**keywords)
-        for function in (Entity._signal, Entity._answer_signal, Entity._run):
+        for function in (Entity._signal, Entity._run):
             setattr(cls, function.__name__, FunctionType(function.__code__.replace(), function.__globals__))
 
     def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
@@ -110,35 +112,35 @@ class Entity:
                 make_ready = executor._make_ready
                 make_ready(strand)
 
-    def _answer_signal(self, executor: Executor) -> None:
-        """Run the callback if there is work, and if its group lets it: a spinning executor has found only this signal."""
-        self._listed_in = None
-        if self._assigned.executor is not executor:
-            self._assigned.missed[self] = None
-        elif self._has_work():
-            group = self._exclusive_group
-            if group is not None:
-                if group._active_entity is not None:
-                    executor._blocked.append(self)
-                    return
-                group._active_entity = self
-            elif not self._begin(self):
+    def _run(self, executor: ExecutorBase, chosen: bool) -> None:
+        """Take one piece of work and call the callback with it, and then free its group.
+
+        An executor that has chosen it for its cycle has taken the group. One that found only this signal has not: then it is
+        seen here whether there is work, and whether the group lets it run.
+        """
+        group = self._exclusive_group
+        if not chosen:
+            self._listed_in = None
+            if self._assigned.executor is not executor:
+                self._assigned.missed[self] = None
+                return
+            if not self._has_work():
+                return
+            if not self._begin(self) if group is None else group._active_entity is not None:
                 executor._blocked.append(self)
                 return
+            if group is not None:
+                group._active_entity = self
             if self._is_async:
                 executor._has_polled = False  # a coroutine that lets others go first goes on in the next cycle
                 executor._execute(self)
-            else:
-                self._run(executor)
-
-    def _run(self, executor: ExecutorBase) -> None:
-        """Take one piece of work and call the callback with it. Its group has been taken, and is freed."""
+                return
         simulation, traced = executor._simulation, self._traced
         if traced is not None:
-            began, arrivals = simulation.now, traced.arrivals
+            began, arrivals, running = simulation.now, traced.arrivals, traced.open
             ready = self._next if arrivals is None else arrivals.popleft() if arrivals else began
             begun = (ready, began)
-            traced.open.append(begun)
+            running.append(begun)
         try:
             arguments = self._take()
             if arguments is not None:
@@ -151,8 +153,14 @@ class Entity:
             raise
         finally:
             if traced is not None:
-                traced.end_run(begun, simulation.now)
-            group = self._exclusive_group
+                if running[-1] is begun:  # as nearly always: few callbacks run beside themselves
+                    running.pop()
+                else:
+                    running.remove(begun)
+                newest = traced.newest
+                newest.append((ready, began, simulation.now))
+                if len(newest) == CHUNK:
+                    traced.pack()
             if group is not None:
                 group._active_entity = None
             else:

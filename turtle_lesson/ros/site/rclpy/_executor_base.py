@@ -80,6 +80,7 @@ class ExecutorBase:
         self._batch: list[Job] = []
         self._resumed: list[Task] = []
         self._polled: list[Task] = []  # whose coroutine only let others go first, as with asyncio.sleep(0)
+        self._must_look = True  # there may be more to do than to run the callbacks of what has signalled
         self._has_polled = False  # nothing has happened since they last looked
         self._blocked: list[Entity] = []
         self._waiter: Strand | None = None  # the strand that a signal wakes: the last that began to wait
@@ -171,6 +172,7 @@ class ExecutorBase:
 
     def wake(self) -> None:
         """Have a waiting `spin_once` look again at what it waits for."""
+        self._must_look = True
         if self._waiter is not None:
             self._simulation.wake(self._waiter)
 
@@ -207,6 +209,7 @@ class ExecutorBase:
 
     def _begin_cycle(self) -> None:
         """Take all that is ready now as the next batch; the one before is done."""
+        self._must_look = True
         self._has_polled = not self._signalled and not self._resumed
         batch = self._batch
         batch += sorted(self._signalled, key=attrgetter("_turn"), reverse=True)
@@ -252,7 +255,7 @@ class ExecutorBase:
         elif job._is_async:
             self._run_task(self._as_task(job))
         else:
-            job._run(self)
+            job._run(self, True)
 
     def _retry_blocked(self) -> None:
         """Look again at the entities that waited for a callback group."""

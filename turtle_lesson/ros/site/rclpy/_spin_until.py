@@ -40,7 +40,7 @@ def spin_until(executor: SingleThreadedExecutor, strand: Strand, future: Future)
                 if future._done and not executor._batch:
                     return
             if len(signalled) == 1 and not (executor._batch or executor._resumed or executor._polled):
-                signalled.pop()._answer_signal(executor)
+                signalled.pop()._run(executor, False)
             else:
                 job = executor._next(strand, None, future._is_done)
                 if job is None:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from greenlet import GreenletExit, getcurrent
+from greenlet import GreenletExit
 
 from turtle_lesson.ros.distro import EXECUTOR_AS_CONTEXT, SHUTDOWN_WAITS_FOR_THREADS
 from turtle_lesson.ros.runtime.world import current_world
@@ -67,7 +67,7 @@ class Executor(ExecutorBase):
         strand.may_act, before = self._may_run_anything, strand.may_act
         try:
             if type(self).spin_once is Executor.spin_once and type(self)._execute is Executor._execute:
-                self._spin_fast(strand)
+                self._spin_in_turns(strand)
             else:
                 while self._context.ok() and not self._is_shutdown:
                     self.spin_once()
@@ -76,31 +76,43 @@ class Executor(ExecutorBase):
             self._spinning_forever.remove(strand)
             spinning.remove(strand)
 
-    def _spin_fast(self, strand: Strand) -> None:
-        """What a loop over `spin_once` does, written out: half of what the simulation costs is spent here.
+    def _spin_in_turns(self, strand: Strand) -> None:
+        """What a loop over `spin_once` does, written out: much of what the simulation costs is spent here.
 
-        The common case is that one callback became ready while the strand was waiting; it is run without a batch.
+        The common case is that one callback became ready while the strand was waiting; it is run without a cycle.
         """
-        simulation, context = self._simulation, self._context
-        signalled, batch, resumed, polled = self._signalled, self._batch, self._resumed, self._polled
-        self._spinning.append(strand)
-        self._begin_waiting(strand)
-        try:
-            while True:  # a condition here would keep Python 3.11 from specializing this function's instructions
-                if context.ended or self._is_shutdown:
-                    return
-                if not (signalled or batch or resumed) and (not polled or self._has_polled):
-                    simulation.park(strand)
-                    if context.ended and not self._is_shutdown:
+        signalled, waited = self._signalled, False
+
+        def turn() -> bool:
+            """Run what is ready; whether to wait for more."""
+            woken = waited
+            while True:
+                if len(signalled) == 1 and not self._must_look:
+                    signalled.pop()._run(self, False)
+                elif self._context.ended or self._is_shutdown:
+                    if woken and not self._is_shutdown:
                         raise ExternalShutdownException
-                elif len(signalled) == 1 and not (batch or resumed or polled):
-                    signalled.pop()._answer_signal(self)
-                else:
+                    return False
+                elif signalled or self._batch or self._resumed or (self._polled and not self._has_polled):
                     try:
                         job = self._next(strand, None, None)
                     except ShutdownException:
-                        return
+                        return False
                     self._execute(job)
+                else:
+                    self._must_look = bool(self._polled) or len(self._spinning) > 1
+                    return True
+                if not (signalled or self._must_look):
+                    return True
+                woken = False
+
+        self._spinning.append(strand)
+        self._begin_waiting(strand)
+        self._must_look = True
+        try:
+            if turn():
+                waited = True
+                self._simulation.take_turns(strand, turn)
         finally:
             self._end_waiting(strand)
             self._spinning.remove(strand)
@@ -111,16 +123,16 @@ class Executor(ExecutorBase):
 
         An executor that is shut down runs none, and says nothing.
         """
-        strand = getcurrent()
-        if type(strand) is Strand:
+        strand = running_strand()
+        if strand is not None:
             self._spin_once(strand, None if timeout_sec is None else self._deadline(timeout_sec), None)
         else:
             drive(self.spin_once, timeout_sec)
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Run callbacks until the future is done, or the timeout (s) is over."""
-        strand = getcurrent()
-        if type(strand) is not Strand:
+        strand = running_strand()
+        if strand is None:
             drive(self.spin_until_future_complete, future, timeout_sec)
             return
         strand.activity = "spin_until_future_complete"

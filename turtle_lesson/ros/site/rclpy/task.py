@@ -272,6 +272,7 @@ class Task(Future):
             awaited._callbacks.append(self._go_on)
         elif self._executor is not None:
             self._executor._polled.append(self)
+            self._executor._must_look = True
 
     def _why_not_awaited(self, awaited: Any) -> Exception | None:
         """What is wrong with what the coroutine waits for, if anything is."""
