@@ -12,6 +12,7 @@ import socket
 import sys
 import sysconfig
 import threading
+import time
 from collections.abc import Callable
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from pathlib import Path
@@ -19,6 +20,7 @@ from types import ModuleType
 from typing import Any
 
 import pytest
+import rclpy
 
 from turtle_lesson import start
 from turtle_lesson.lab import recorder
@@ -101,6 +103,22 @@ def test_a_callback_that_computes_is_ended_by_its_own_cpu_time(world: World, wat
     assert str(process.error).startswith(
         "computes has computed for 10 s without letting any time pass, so nothing else"
     )
+
+
+def test_so_is_a_librarys_function_that_a_learners_node_calls(world: World, watchdog: Watchdog) -> None:
+    source = "def compute():\n    for _ in range(200): tick(True), look()"
+    library = in_a_file(LIBRARY, source, tick=watchdog.tick, look=watchdog.look)
+
+    def spins() -> None:
+        rclpy.init()
+        node = rclpy.create_node("computes")
+        node.create_timer(0.1, library["compute"])
+        rclpy.spin(node)
+
+    process = world.spawn(spins, name="computes")
+    world.spawn(lambda: time.sleep(0.5), name="sleeps")  # between two programs, turns are taken on a stack of their own
+    world.sim.run_until(SECOND)
+    assert isinstance(process.error, NeverReturns)
 
 
 def test_a_busy_machine_ends_nothing(world: World, watchdog: Watchdog) -> None:

@@ -306,6 +306,27 @@ def test_a_task_may_spin_a_node_between_others(run: Run) -> None:
     assert run(program) == ["tick", "tick", "tick", "slept"]
 
 
+def test_a_callback_of_a_node_that_is_spun_in_a_task_finds_the_loop(world: World) -> None:
+    found: list[bool] = []
+
+    async def main() -> None:
+        rclpy.init()
+        node, loop = rclpy.create_node("node"), asyncio.get_running_loop()
+
+        def tick() -> None:
+            found.append(asyncio.get_running_loop() is loop)
+            if len(found) == 3:
+                rclpy.shutdown()
+
+        node.create_timer(1.0, tick)
+        rclpy.spin(node)
+
+    world.spawn(lambda: asyncio.run(main()), name="node")
+    world.spawn(lambda: [time.sleep(0.3) for _ in range(20)], name="sleeps")
+    world.sim.run_until(3_500_000_000)
+    assert found == [True, True, True]
+
+
 def test_a_loop_in_a_thread_beside_a_node_that_spins(run: Run) -> None:
     def program(found: list[Any]) -> None:
         rclpy.init()

@@ -19,7 +19,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from itertools import takewhile
+from itertools import chain, takewhile
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -107,7 +107,8 @@ class Guard:
                 raise KeyboardInterrupt  # as Ctrl-C at a terminal's prompt: nothing else would end the question
         elif tripped == self.simulation.now and not _must_go_on(frame):  # the clock still stands still
             strand = running_strand()
-            is_learners_code = any(map(_is_learners, _frames(frame)))
+            below = None if strand is None else strand.gr_frame  # where a turn is taken on another stack
+            is_learners_code = any(map(_is_learners, chain(_frames(frame), _frames(below))))
             if self.interrupted:
                 self._stop(strand, frame if is_learners_code else None)
             elif self.waiting or not is_learners_code:

@@ -482,6 +482,14 @@ class CarefulSimulation(Simulation):
             function, *strand.calls = strand.calls
             function()
 
+    def take_turns(self, strand: Strand, turn: Callable[[], bool]) -> None:
+        """See Simulation. Within an asyncio loop, turns are taken on its own stack: on another one it would be missing."""
+        if asyncio._get_running_loop() is None:
+            super().take_turns(strand, turn)
+            return
+        while turn():
+            self.park(strand)
+
 
 def be_careful(simulation: Simulation) -> None:
     """Let all strands of a simulation park with care from now on."""
