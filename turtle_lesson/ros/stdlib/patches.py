@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 from ..idl.registry import install_finder, uninstall_finder
 from ..sim import interrupts, strand
-from ..sim.strand import running_strand
+from ..sim.strand import Strand, running_strand
 from . import (
     asyncio_loops,
     clocks,
