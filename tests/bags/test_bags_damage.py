@@ -433,13 +433,14 @@ def test_a_database_that_computes_its_messages_is_not_believed(tmp_path: Path, m
     assert sum(len(data) for _, _, data in read(bag)) < path.stat().st_size
 
 
-@pytest.mark.parametrize(
-    "text", ["a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n", "[" * 5000 + "]" * 5000, "#" * 11_000_000]
-)
+LAUGHS = "x0: &x0 [y]\n" + "".join(f"x{n}: &x{n} [{', '.join([f'*x{n - 1}'] * 10)}]\n" for n in range(1, 9))
+
+
+@pytest.mark.parametrize("text", [LAUGHS, "[" * 5000 + "]" * 5000, "#" * 11_000_000])
 def test_metadata_that_would_grow_is_not_read(sound: Sound, tmp_path: Path, text: str) -> None:
     folder = spoil(sound, tmp_path, lambda data: data)
     with (folder / "metadata.yaml").open("a") as file:
         file.write(f"\nmore: {text}" if text[0] == "[" else f"\n{text}")
     bag = open_bag(folder)
-    assert "metadata.yaml cannot be read: it has " in bag.damage
+    assert "metadata.yaml cannot be read (" in bag.damage
     assert len(read(bag)) == 2 * COUNT

@@ -10,20 +10,13 @@ from datetime import UTC, datetime
 from pathlib import Path, PurePath
 from typing import Any, NamedTuple
 
-import yaml
-
+from ..runtime.bounded_yaml import LONGEST, safe_load
 from ..sim.simulation import NANOSECONDS
 from . import BagError
 from .scan import Contents, scanned
 
 STORAGES = {".mcap": "mcap", ".db3": "sqlite3"}
 METADATA = "metadata.yaml"
-
-LONGEST = 10_000_000
-DEEPEST = 20
-"""How many bytes of metadata.yaml are read, and how deeply its lists and mappings may be nested."""
-
-LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 INDENT = 19
 UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
@@ -111,26 +104,18 @@ def open_bag(path: str | Path) -> Bag:
 
 
 def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
-    """What metadata.yaml says, and what is wrong with it: it is not read if it could grow far beyond what recorders write."""
+    """What metadata.yaml says, and what is wrong with it."""
     file = path / METADATA
     if path.is_file():
         return {}, []
     try:
-        if file.is_file() and file.stat().st_size > LONGEST:
-            raise BagError(f"it has more than {LONGEST:,} bytes")
-        text, depth = file.read_text("utf-8"), 0
-        for event in yaml.parse(text, LOADER):
-            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-            if depth > DEEPEST or isinstance(event, yaml.AliasEvent):
-                raise BagError("it has aliases, or is nested more deeply than any recorder writes it")
-        found = yaml.load(text, LOADER)["rosbag2_bagfile_information"]
+        with file.open(encoding="utf-8") as stream:
+            found = safe_load(stream.read(LONGEST + 1))["rosbag2_bagfile_information"]
         return dict(found.items()), []
-    except BagError as error:
-        return {}, [f"{METADATA} cannot be read: {error}"]
     except FileNotFoundError:
         return {}, [f"there is no {METADATA} (was the recording not stopped?)"]
     except Exception as error:
-        return {}, [f"{METADATA} cannot be read ({type(error).__name__})"]
+        return {}, [f"{METADATA} cannot be read ({getattr(error, 'problem', None) or type(error).__name__})"]
 
 
 def _files_of(path: Path, metadata: dict[str, Any]) -> tuple[list[Path], list[str]]:
