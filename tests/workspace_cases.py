@@ -7,8 +7,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from turtle_lesson.ros.ament.colcon import run
 from turtle_lesson.ros.ament.source import source
+from turtle_lesson.ros.cli.colcon import run
 from turtle_lesson.ros.runtime.world import World
 
 XML = """\

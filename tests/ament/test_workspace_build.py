@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from workspace_cases import change, colcon, make_package, source_in, timeless
 
-from turtle_lesson.ros.ament.colcon import run
 from turtle_lesson.ros.ament.package import CompiledProgramError
+from turtle_lesson.ros.cli.colcon import run
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.runtime.world import World
 

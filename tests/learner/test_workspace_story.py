@@ -12,7 +12,8 @@ import pytest
 
 from turtle_lesson.learner import story
 from turtle_lesson.learner.workspace import Workspace, workspace
-from turtle_lesson.ros.ament import colcon, create
+from turtle_lesson.ros.ament import create
+from turtle_lesson.ros.cli import colcon
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World
 

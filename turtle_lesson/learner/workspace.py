@@ -110,7 +110,7 @@ class Workspace:
 
     def build(self, world: World) -> str:
         """`colcon build` of the package, in this world's terminal. Returns what it printed if it failed, else ""."""
-        from ..ros.ament import colcon
+        from ..ros.cli import colcon
 
         said = io.StringIO()
         words = ["build", "--packages-select", PACKAGE]

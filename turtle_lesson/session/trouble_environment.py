@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 from ..learner.story import FINISHED, HERE
 from ..ros import launching
-from ..ros.ament import colcon
 from ..ros.ament.package import Package, PythonProgram, Target
 from ..ros.ament.source import overlay, overlays, remove_all
+from ..ros.cli import colcon
 from ..ros.cli.jobs import Job, jobs
 from ..ros.idl.names import module_name
 from ..ros.idl.registry import registry

@@ -164,7 +164,8 @@ class Shell:
             with contextlib.nullcontext() if name in {"source", "."} else contextlib.chdir("."):
                 return self._script(script, out, error)
         if name in {"colcon", "source", "."}:
-            from ..ament import colcon, source
+            from ..ament import source
+            from . import colcon
 
             run = colcon.run if name == "colcon" else source.source
             return run(self.world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn, TextIO
+from typing import TYPE_CHECKING, TextIO
 
+from ..ament.build import DEFAULTS, Plan, build
+from ..ament.index import CMAKE_PACKAGES, PYTHON_PACKAGES
+from ..ament.install_tree import needs_of, prefix_of
+from ..ament.manifest import Found, build_type_hint, discover, in_order, needed_by
+from ..ament.package import ColconError, filled
 from ..idl.names import did_you_mean
 from ..idl.registry import INSTALLED_SEPARATELY, Registry
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
-from .build import DEFAULTS, Plan, build
-from .index import CMAKE_PACKAGES, PYTHON_PACKAGES
-from .install_tree import needs_of, prefix_of
-from .manifest import Found, build_type_hint, discover, in_order, needed_by
-from .package import ColconError, filled
+from .arguments import Argument, Parser, Stop, arg, either, flag
 
 if TYPE_CHECKING:
     from ..runtime.world import World
@@ -24,7 +25,6 @@ VERBS = (
     "build", "extension-points", "extensions", "graph", "info", "list", "metadata", "test", "test-result",
     "version-check",
 )  # fmt: skip
-_HERE = ("build", "list")
 _INSTEAD = {
     "info": "colcon list shows the packages, and each package.xml says more about its package.",
     "test": "run a package's tests with pytest: !python -m pytest src/<package>/test",
@@ -53,45 +53,6 @@ _SILENT = {
 """Event handlers that exist, and of which nothing is seen in a page."""
 
 
-class _Exit(Exception):
-    """The command ends with this exit code."""
-
-    def __init__(self, code: int) -> None:
-        super().__init__(code)
-        self.code = code
-
-
-class _Parser(argparse.ArgumentParser):
-    """An argument parser that prints to the command's own streams."""
-
-    out: TextIO
-    err: TextIO
-
-    def _print_message(self, message: str, file: object = None) -> None:
-        self.out.write(message)
-
-    def exit(self, status: int = 0, message: str | None = None) -> NoReturn:
-        """End the command."""
-        if message:
-            self.err.write(message)
-        raise _Exit(status)
-
-    def error(self, message: str) -> NoReturn:
-        """Say what is wrong with the arguments."""
-        self.err.write(f"{self.format_usage()}{self.prog}: error: {message[:300]}\n")
-        raise _Exit(2)
-
-    def parse_all(self, words: list[str]) -> argparse.Namespace:
-        """The arguments; what is left over is refused in colcon's words."""
-        args, unknown = self.parse_known_args(words)
-        if unknown:
-            options = [each for action in self._actions for each in action.option_strings if each.startswith("--")]
-            hint = did_you_mean(unknown[0].partition("=")[0][:60], options) or f"{self.prog} -h lists what it takes."
-            self.err.write(f"{_USAGE}colcon: error: unrecognized arguments: {' '.join(unknown)[:300]}\n{hint}\n")
-            raise _Exit(2)
-        return args
-
-
 def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: Path | None = None) -> int:
     """Carry out `colcon WORDS…` in a folder; return the exit code."""
     while words and words[0].partition("=")[0] in {"--log-base", "--log-level"}:
@@ -110,15 +71,15 @@ def run(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: 
         close = did_you_mean(verb[:60], VERBS)
         stderr.write(_USAGE + said + (f"{close}\n" if close else ""))
         return 2
-    if verb not in _HERE:
+    if verb not in _VERBS_HERE:
         instead = _INSTEAD.get(verb, "build and list are.")
         stderr.write(f"colcon {verb} is not available here; {instead}\n")
         return 1
     command = _Command(world, verb, stdout, stderr, (cwd or Path.cwd()).resolve())
     try:
         return command.run(words[1:])
-    except _Exit as end:
-        return end.code
+    except Stop as stop:
+        return stop.print(stdout, stderr)
     except OSError as error:
         named = f": {str(error.filename)[:100]}" if error.filename else ""
         reason = f"{error.strerror or error}{named}"
@@ -151,30 +112,14 @@ class _Command:
         return self._build(args, chosen, found)
 
     def _parse(self, words: list[str]) -> argparse.Namespace:
-        parser = _Parser(
-            f"colcon {self.verb}",
-            description=_DESCRIPTIONS[self.verb],
-            formatter_class=lambda prog: argparse.HelpFormatter(prog, width=80),
-        )
-        parser.out, parser.err = self.out, self.err
-        parser.add_argument(
-            "--base-paths", nargs="*", metavar="PATH", help="folders to look for packages in (default: .)"
-        )
-        for option, text in _SELECTIONS.items():
-            parser.add_argument(option, nargs="*", metavar="PKG_NAME", help=text)
-        if self.verb == "build":
-            _add_build(parser)
-        elif self.verb == "list":
-            either = parser.add_mutually_exclusive_group()
-            either.add_argument("--names-only", "-n", action="store_true", help="show only the names")
-            either.add_argument("--paths-only", "-p", action="store_true", help="show only the places")
-            parser.add_argument(
-                "-t",
-                "--topological-order",
-                action="store_true",
-                help="order them so that each comes after those it depends on",
-            )
-        return parser.parse_all(_without_cmake_arguments(words, parser))
+        about, arguments = _VERBS_HERE[self.verb]
+        parser = Parser(f"colcon {self.verb}", about, (*_SELECTION, *arguments))
+        args, unknown = parser.parse_known_args(_without_cmake_arguments(words, parser))
+        if unknown:
+            hint = did_you_mean(unknown[0].partition("=")[0][:60], parser.option_names())
+            said = f"{_USAGE}colcon: error: unrecognized arguments: {' '.join(unknown)[:300]}"
+            raise Stop(f"{said}\n{hint or f'{parser.prog} -h lists what it takes.'}", 2)
+        return args
 
     def _warn(self, text: str, module: str = "colcon.colcon_core.package_selection") -> None:
         self.err.write(f"[{self.clock()}s] WARNING:{module}:{text}\n")
@@ -206,16 +151,15 @@ class _Command:
         there = f"There are: {', '.join(sorted(names))}."
         for option in ("up_to", "select", "skip"):
             given = getattr(args, f"packages_{option}") or []
-            flag = f"--packages-{option.replace('_', '-')}"
+            spelt = f"--packages-{option.replace('_', '-')}"
             for name in given:
                 if name in names:
                     continue
                 hint = f"\nHint: {did_you_mean(name, names) or there}" if names else ""
                 if option in {"select", "skip"}:
-                    self._warn(f"ignoring unknown package '{name[:80]}' in {flag}{hint}")
+                    self._warn(f"ignoring unknown package '{name[:80]}' in {spelt}{hint}")
                 else:
-                    self.err.write(f"Package '{name[:80]}' specified with {flag} was not found{hint}\n")
-                    raise _Exit(1)
+                    raise Stop(f"Package '{name[:80]}' specified with {spelt} was not found{hint}", 1)
 
     def _list(self, args: argparse.Namespace, chosen: list[Found]) -> int:
         ordered = in_order(chosen)
@@ -276,25 +220,12 @@ class _Command:
         return handlers
 
 
-_DESCRIPTIONS = {
-    "build": "Build the packages below this folder, and install them into install/.",
-    "list": "Show the packages below this folder.",
-}
-
-
-_SELECTIONS = {
-    "--packages-up-to": "these packages and all that they depend on",
-    "--packages-select": "only these packages",
-    "--packages-skip": "all packages except these",
-}
-
-
 _CMAKE_ARGUMENTS = {"--cmake-args", "--ament-cmake-args", "--catkin-cmake-args"}
 
 
-def _without_cmake_arguments(words: list[str], parser: argparse.ArgumentParser) -> list[str]:
+def _without_cmake_arguments(words: list[str], parser: Parser) -> list[str]:
     """The words without what CMake is to get, such as `-DCMAKE_BUILD_TYPE=Release` after `--cmake-args`."""
-    options = {option for action in parser._actions for option in action.option_strings}
+    options = {option for action in parser.actions for option in action.option_strings}
     kept: list[str] = []
     for_cmake = False
     for word in words:
@@ -305,33 +236,34 @@ def _without_cmake_arguments(words: list[str], parser: argparse.ArgumentParser) 
 
 
 _WITHOUT_EFFECT = "accepted, but without effect here"
-_FLAGS = {
-    "--merge-install": "one folder for all packages instead of one for each",
-    "--symlink-install": "link to the files in src/, so that an edit takes effect at once",
-    "--continue-on-error": "continue with the packages that do not depend on a failed one",
+_SELECTION = (
+    arg("--base-paths", "folders to look for packages in (default: .)", nargs="*", metavar="PATH"),
+    arg("--packages-up-to", "these packages and all that they depend on", nargs="*", metavar="PKG_NAME"),
+    arg("--packages-select", "only these packages", nargs="*", metavar="PKG_NAME"),
+    arg("--packages-skip", "all packages except these", nargs="*", metavar="PKG_NAME"),
+)
+_BUILD: tuple[Argument, ...] = (
+    arg("--build-base", "folder for intermediate files (default: build)", default="build"),
+    arg("--install-base", "folder for installed files (default: install)", default="install"),
+    flag("--merge-install", "one folder for all packages instead of one for each"),
+    flag("--symlink-install", "link to the files in src/, so that an edit takes effect at once"),
+    flag("--continue-on-error", "continue with the packages that do not depend on a failed one"),
+    arg("--executor", "whether to build several packages at a time", choices=["parallel", "sequential"]),
+    arg("--parallel-workers", "how many packages to build at a time", type=int, default=4, metavar="NUMBER"),
+    arg("--event-handlers", "e.g. console_direct+ shows all output", nargs="*", metavar="NAME+"),
+    *(arg(option, _WITHOUT_EFFECT, nargs="*", metavar="*") for option in sorted(_CMAKE_ARGUMENTS)),
+    arg("--allow-overriding", "of an underlay", nargs="+", default=[], metavar="PKG_NAME"),
+    *(flag(f"--cmake-{what}", _WITHOUT_EFFECT) for what in ("clean-first", "clean-cache", "force-configure")),
+)
+_LIST: tuple[Argument, ...] = (
+    either(flag("--names-only -n", "show only the names"), flag("--paths-only -p", "show only the places")),
+    flag("-t --topological-order", "order them so that each comes after those it depends on"),
+)
+_VERBS_HERE = {
+    "build": ("Build the packages below this folder, and install them into install/.", _BUILD),
+    "list": ("Show the packages below this folder.", _LIST),
 }
-
-
-def _add_build(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--build-base", default="build", help="folder for intermediate files (default: build)")
-    parser.add_argument("--install-base", default="install", help="folder for installed files (default: install)")
-    for option, text in _FLAGS.items():
-        parser.add_argument(option, action="store_true", help=text)
-    parser.add_argument(
-        "--executor",
-        choices=["parallel", "sequential"],
-        default="parallel",
-        help="whether to build several packages at a time",
-    )
-    parser.add_argument(
-        "--parallel-workers", type=int, default=4, metavar="NUMBER", help="how many packages to build at a time"
-    )
-    parser.add_argument("--event-handlers", nargs="*", metavar="NAME+", help="e.g. console_direct+ shows all output")
-    for option in sorted(_CMAKE_ARGUMENTS):
-        parser.add_argument(option, nargs="*", metavar="*", help=_WITHOUT_EFFECT)
-    parser.add_argument("--allow-overriding", nargs="+", default=[], metavar="PKG_NAME", help="of an underlay")
-    for option in ("--cmake-clean-first", "--cmake-clean-cache", "--cmake-force-configure"):
-        parser.add_argument(option, action="store_true", help=_WITHOUT_EFFECT)
+"""What each verb does, and its own arguments."""
 
 
 def overridden(world: World, chosen: list[Found], install: Path, allowed: list[str]) -> str:
