@@ -57,7 +57,7 @@ results.Row.good = property(lambda self: True)
 """
 
 RESULTS_REDEFINED = """
-from turtle_lesson.lab.checks import assertions, pages_00_02, registry, results, streams
+from turtle_lesson.lab.checks import assertions, pages_00_02, registry, results
 
 class Row(results.Row):
     def __new__(cls, mark, *rest):
@@ -70,7 +70,7 @@ class Seen(results.Seen):
     def __new__(cls, good, *rest):
         return super().__new__(cls, True, *rest)
 
-for module in (results, registry, assertions, streams, pages_00_02):
+for module in (results, registry, assertions, pages_00_02):
     module.Row, module.Seen = Row, Seen
 """
 
@@ -110,14 +110,14 @@ lesson = Lesson()
 """
 
 LESSON_PATCHED = """
-import turtle_lesson.session.inspection, turtle_lesson.session.lesson
-turtle_lesson.session.inspection.Inspection.check = lambda self, name: "passed"
+import turtle_lesson.session.views, turtle_lesson.session.lesson
+turtle_lesson.session.views.Inspection.check = lambda self, name: "passed"
 turtle_lesson.session.lesson.Lesson.check = lambda self, name: "passed"
 """
 
 PROBE_PATCHED = """
 from types import SimpleNamespace
-from turtle_lesson.lab.checks import assertions, probe, streams
+from turtle_lesson.lab.checks import assertions, probe
 probe.Probe.hear = lambda self, *rest: [SimpleNamespace(at=0.5 * n, message=SimpleNamespace(data=n)) for n in range(99)]
 probe.Probe.nodes = lambda self: __import__("collections").Counter(["/counter", "/doubler"])
 assertions._ends = lambda *rest: probe.Seen(True, "yes")

@@ -59,7 +59,7 @@ def watch_threads() -> None:
 
     def note(frame: Any, event: str, argument: Any) -> None:
         name = frame.f_code.co_filename.replace("\\", "/")
-        if event == "call" and "turtle_lesson/lab/" in name and not name.endswith("widgets/backend.py"):
+        if event == "call" and "turtle_lesson/lab/" in name and not frame.f_code.co_qualname.startswith("Loop."):
             ELSEWHERE.add(f"{name.rpartition('/')[2]}: {frame.f_code.co_name}")
 
     threading.setprofile(note)

@@ -27,14 +27,6 @@ __all__ = ["Lesson", "Robot", "connect", "load_ipython_extension", "start"]
 SITE = str(Path(__file__).resolve().parent / "ros" / "site")
 
 
-def _make_importable() -> None:
-    """Put what a learner imports last on the path, the way sourcing a setup file adds to it."""
-    if SITE not in sys.path:
-        sys.path.append(SITE)
-    patches.install(patches.Stage.IMPORT)
-    hooks.is_page = _is_page
-
-
 def _is_page(place: Path) -> bool:
     from .learner.story import PAGES
 
@@ -64,4 +56,7 @@ def __getattr__(name: str) -> Any:
 
 
 with defer_sigint():
-    _make_importable()
+    if SITE not in sys.path:  # what a learner imports comes last, the way sourcing a setup file adds to the path
+        sys.path.append(SITE)
+    patches.install(patches.Stage.IMPORT)
+    hooks.is_page = _is_page

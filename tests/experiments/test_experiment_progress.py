@@ -12,7 +12,7 @@ import pytest
 from jupyter_client.manager import start_new_kernel
 from kernels import ROOT, end
 
-from turtle_lesson.experiments.progress import bar
+from turtle_lesson.experiments.experiment import bar
 
 
 class Terminal(io.StringIO):
@@ -63,7 +63,7 @@ def test_a_live_notebook_gets_a_bar_of_which_nothing_is_left_and_a_page_that_is_
             outputs.append((message["msg_type"], message["content"].get("data", message["content"])))
 
     cell = (
-        f"import sys; sys.path.insert(0, {str(ROOT)!r})\nfrom turtle_lesson.experiments.progress import bar\n"
+        f"import sys; sys.path.insert(0, {str(ROOT)!r})\nfrom turtle_lesson.experiments.experiment import bar\n"
         "with bar(3, None) as told:\n    told(False)\n    told(True)"
     )
     try:

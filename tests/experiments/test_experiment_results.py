@@ -12,8 +12,7 @@ import pytest
 
 from turtle_lesson.experiments import ExperimentError, Results, experiment
 from turtle_lesson.experiments.one_run import Ending, Run
-from turtle_lesson.experiments.pictures import wilson
-from turtle_lesson.experiments.results import ending_of
+from turtle_lesson.experiments.results import wilson
 
 VALUES = [
     {"seconds": 1.5, "name": 'a, "b"\n# c', "hits": 3, "fast": True, "mixed": 1, "empty": "", "odd": "a\rb"},
@@ -84,7 +83,7 @@ def test_a_file_gives_back_every_value_as_it_was(kind: str, tmp_path: Path) -> N
     ]
     assert (read.columns, read.swept, read.about, read.missing) == (results.columns, results.swept, results.about, 2)
     assert read.runs[2] == Run(2, 2, {"gain": 1.0, "goal": (1, 2.5)}, None, "jazzy", "shuffled")
-    assert ending_of(read.rows[0], read.swept).values["name"] == VALUES[0]["name"]
+    assert read.ending_of(read.rows[0]).values["name"] == VALUES[0]["name"]
 
 
 def test_other_programs_read_the_files(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ import pytest
 
 from turtle_lesson import start
 from turtle_lesson.experiments import ExperimentError, Results, experiment, replay
-from turtle_lesson.experiments.replay import _Surroundings, _Tee
+from turtle_lesson.experiments.replay import Surroundings, _Tee
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.sim.errors import WorldClosed
 
@@ -116,7 +116,7 @@ def test_the_notebook_keeps_its_own_folder_chance_and_streams(
 
 def test_its_stream_may_outlive_the_notebooks(tmp_path: Path) -> None:
     with (tmp_path / "shown").open("w") as shown, redirect_stdout(shown):
-        stream = _Tee(_Surroundings(tmp_path), 0)
+        stream = _Tee(Surroundings(tmp_path), 0)
         stream.write("a word")
     assert (tmp_path / "shown").read_text() == "a word"
     stream.close()  # as the garbage collector does it

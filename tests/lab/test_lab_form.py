@@ -12,11 +12,14 @@ from lab_fakes import order
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.widgets.form import publish_line
-from turtle_lesson.lab.widgets.form_fields import Group, Rows, Single, find_part
-from turtle_lesson.lab.widgets.message_types import (
+from turtle_lesson.lab.widgets.message_fields import (
+    Group,
     Kind,
+    Rows,
+    Single,
     constants_of,
     find_class,
+    find_part,
     kinds_of,
     plain,
     read_kind,

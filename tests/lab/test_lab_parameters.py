@@ -9,7 +9,7 @@ import pytest
 from lab_fakes import order
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.widgets.message_types import (
+from turtle_lesson.lab.widgets.parameters import (
     BOOL,
     BYTES,
     DOUBLE,

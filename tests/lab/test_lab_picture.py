@@ -15,9 +15,9 @@ from lab_fakes import drive, recording, report, scan, see
 from nbconvert import HTMLExporter
 from traitlets.config import Config
 
-from turtle_lesson.lab import style
+from turtle_lesson.lab import drawing
+from turtle_lesson.lab.drawing import Picture
 from turtle_lesson.lab.path import plot_path
-from turtle_lesson.lab.picture import Picture
 from turtle_lesson.lab.scan import plot_scan
 from turtle_lesson.lab.status import plot_status
 
@@ -93,7 +93,7 @@ def test_text_can_be_read_on_a_light_and_a_dark_page(page):
         parts = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in to_rgb(colour)]
         return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
 
-    dark, light = sorted([luminance(style.INK), luminance(page)])
+    dark, light = sorted([luminance(drawing.INK), luminance(page)])
     assert (light + 0.05) / (dark + 0.05) > 4.2
 
 

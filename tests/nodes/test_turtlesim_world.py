@@ -11,8 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtle_lesson.turtlesim.canvas import BARE, DEFAULT_PEN, Canvas
-from turtle_lesson.turtlesim.turtle import HEIGHT, WIDTH, Turtle, TurtleError, float32
+from turtle_lesson.turtlesim.turtle import BARE, DEFAULT_PEN, HEIGHT, WIDTH, Canvas, Turtle, TurtleError, float32
 from turtle_lesson.turtlesim.world import TurtleWorld
 
 DATA = Path(__file__).parents[1] / "data" / "turtlesim"

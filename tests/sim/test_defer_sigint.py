@@ -55,7 +55,7 @@ def test_a_thread_that_is_not_the_main_one_just_goes_on() -> None:
 
 FIRST_PICTURE = """
 import os, signal, sys, threading, time
-from turtle_lesson.lab import style
+from turtle_lesson.lab import drawing
 
 def press():
     while "matplotlib" not in sys.modules:
@@ -65,12 +65,12 @@ def press():
 
 threading.Thread(target=press).start()
 try:
-    with style.applied():
+    with drawing.applied():
         time.sleep(2)
 except KeyboardInterrupt:
     print("interrupted")
-with style.applied():
-    print(style.card(2, 1))
+with drawing.applied():
+    print(drawing.card(2, 1))
 """
 
 

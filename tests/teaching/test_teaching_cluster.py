@@ -155,8 +155,8 @@ def test_a_copy_is_never_run_by_another_lesson(monkeypatch: pytest.MonkeyPatch) 
 @pytest.mark.parametrize(
     ("address", "said"),
     [
-        ("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9"),
-        ("nonsense", "nonsense is not the address of a Dask scheduler, such as tcp://10.0.0.1:8786: missing port"),
+        ("tcp://127.0.0.1:9", "no scheduler of Dask answers at 'tcp://127.0.0.1:9'"),
+        ("nonsense", "no scheduler of Dask answers at 'nonsense' (missing port"),
     ],
 )
 def test_a_cluster_that_is_not_there_is_said(
@@ -183,4 +183,4 @@ def test_without_dask_it_is_said_how_to_install_it(
 ) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert main(["grade", str(tmp_path / "copy.ipynb"), "--client", "tcp://a:1"]) == 1
-    assert "--client needs Dask: pip install 'turtle-lesson[cluster]'" in capsys.readouterr().err
+    assert "a cluster needs Dask, which is not here: pip install 'turtle-lesson[cluster]'" in capsys.readouterr().err

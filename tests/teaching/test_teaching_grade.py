@@ -25,9 +25,8 @@ from forgeries import FORGERIES, FORKED, PACKAGE_BESIDE
 from turtle_lesson.lab.checks.registry import checks_of
 from turtle_lesson.teaching import limits, runner
 from turtle_lesson.teaching.copies import Copy
-from turtle_lesson.teaching.grade import CheckScore, Graded, grade, judged
+from turtle_lesson.teaching.grade import CheckScore, Graded, as_csv, as_json, grade, in_words, judged, plain
 from turtle_lesson.teaching.main import main
-from turtle_lesson.teaching.report import as_csv, as_json, in_words, plain
 from turtle_lesson.teaching.runner import Runner, Seen
 from turtle_lesson.teaching.worker import _parts
 
@@ -122,7 +121,7 @@ def test_a_forged_copy_gets_nothing(run: Run) -> None:
         ("results_redefined", "turtle_lesson.lab.checks.assertions.Row"),
         ("checks_replaced", "turtle_lesson.lab.checks.registry._checks"),
         ("runner_replaced", "turtle_lesson.lab.checks.registry.run"),
-        ("lesson_patched", "turtle_lesson.session.inspection.Inspection.check"),
+        ("lesson_patched", "turtle_lesson.session.views.Inspection.check"),
         ("probe_patched", "turtle_lesson.lab.checks.probe.Probe.hear"),
         ("place_patched", "turtle_lesson.session.check_target.CheckTarget.published"),
         ("place_patched", "turtle_lesson.session.live.CellNodes.run_until"),

@@ -10,14 +10,16 @@ import contextlib
 import platform
 import socket
 import threading
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .one_run import DIED, VERSION, Ending, ExperimentError, Run, Setting
 from .pools import Worker
 
 if TYPE_CHECKING:
     from distributed import Client
+
+T = TypeVar("T")
 
 PATIENCE = 10.0
 """Seconds of real time within which a scheduler answers."""
@@ -30,7 +32,7 @@ class ClusterPool:
     """A cluster that carries out runs: `client` is a `dask.distributed.Client`, a cluster, or the address of a scheduler."""
 
     def __init__(self, setting: Setting, client: Any) -> None:
-        self._client, self._is_own = _connected(client)
+        self._client, self._is_own = connected(client)
         self._key = setting.key
         self._futures: list[Any] = []
         try:
@@ -64,15 +66,13 @@ class ClusterPool:
             self._client.close()
 
 
-def _connected(client: Any) -> tuple[Client, bool]:
-    """A client, and whether it was made here. Raises ExperimentError where there is none to be had."""
+def connected(client: Any, patience: float = PATIENCE) -> tuple[Client, bool]:
+    """A client, and whether it was made here. Raises ExperimentError if there is no cluster, or none within some time (s)."""
     try:
         from distributed import Client
         from distributed.comm.addressing import get_address_host_port
     except ImportError:
-        raise ExperimentError(
-            "client= needs dask.distributed, which is not installed here: pip install turtle-lesson[cluster]"
-        ) from None
+        raise ExperimentError("a cluster needs Dask, which is not here: pip install 'turtle-lesson[cluster]'") from None
     if isinstance(client, Client):
         if client.status != "running":
             raise ExperimentError(
@@ -85,9 +85,9 @@ def _connected(client: Any) -> tuple[Client, bool]:
         return client, False
     try:
         if isinstance(client, str):  # a Client that cannot connect complains once more when it is collected
-            with socket.create_connection(get_address_host_port(client), PATIENCE):
+            with socket.create_connection(get_address_host_port(client), patience):
                 pass
-        return Client(client, timeout=PATIENCE, set_as_default=False), True
+        return Client(client, timeout=patience, set_as_default=False), True
     except (OSError, ValueError, TypeError) as error:
         raise ExperimentError(
             f'no scheduler of Dask answers at {client!r} ({error}). An address looks like "tcp://10.0.0.1:8786"; '
@@ -95,20 +95,21 @@ def _connected(client: Any) -> tuple[Client, bool]:
         ) from None
 
 
+def answers(client: Client, question: Callable[[], T], patience: float) -> dict[str, T | Exception]:
+    """What each worker answers, by its address. Raises ExperimentError if the cluster has none within some time (s)."""
+    try:
+        client.wait_for_workers(1, timeout=patience)
+    except TimeoutError:
+        raise ExperimentError(f"the cluster has no workers, and none came within {patience:g} s") from None
+    return client.run(question, on_error="return")
+
+
 def _check_workers(client: Client) -> None:
     """Raise ExperimentError for a cluster without workers, or with workers that lack what runs need."""
-    try:
-        client.wait_for_workers(1, timeout=FIRST_WORKER)
-    except TimeoutError:
-        raise ExperimentError(f"the cluster has no workers, and none came within {FIRST_WORKER:g} s") from None
-    try:
-        there = client.run(_about)
-    except Exception as error:
-        raise ExperimentError(
-            f"the cluster's workers cannot import turtle_lesson ({error}): install {_about()} there"
-        ) from None
     mine = _about()
-    for address, about in there.items():
+    for address, about in answers(client, _about, FIRST_WORKER).items():
+        if isinstance(about, Exception):
+            raise ExperimentError(f"the cluster's workers cannot import turtle_lesson ({about}): install {mine} there")
         if about != mine:
             raise ExperimentError(f"the worker {address} has {about}, and this notebook {mine}: they must be the same")
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import inspect
 import itertools
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import closing
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -20,10 +23,8 @@ from . import one_run
 from .one_run import OK, OPTIONS, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
 from .pools import LocalPool, Pool, cores
-from .progress import bar
 from .replay import Replay
-from .results import Results
-from .resume import described, rows_of
+from .results import Results, described, rows_of
 from .shrink import Smallest, smallest_change
 
 MOST_JOBS = 512
@@ -94,7 +95,7 @@ def experiment(
     there = {run.number for run, _ in endings}
     smallest = None
     if (left := [run for run in runs if run.number not in there]) or until:
-        with closing(open_pool(setting, max(len(left), 1), jobs, client)) as pool:
+        with closing(_open_pool(setting, len(left), jobs, client)) as pool:
             if until is None:
                 endings += carry_out(pool, left, progress)
             else:
@@ -131,13 +132,12 @@ def replay(
     return Replay(setting, runs[0], lambda ending: table.row_of(runs[0], ending))
 
 
-def open_pool(setting: one_run.Setting, runs: int, jobs: int | None = None, client: Any = None) -> Pool:
-    """What carries out so many runs: a cluster, or worker processes of this computer."""
-    if client is not None:
-        from .cluster import ClusterPool
+def _open_pool(setting: one_run.Setting, runs: int, jobs: int | None, client: Any) -> Pool:
+    if client is None:
+        return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), max(runs, 1)))
+    from .cluster import ClusterPool
 
-        return ClusterPool(setting, client)
-    return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), runs))
+    return ClusterPool(setting, client)
 
 
 def carry_out(
@@ -214,13 +214,11 @@ def plan(
 
 def _seeds(seeds: Any) -> list[int]:
     try:
-        found: list[Any] = [seeds] if isinstance(seeds, (str, bytes)) else [plain(seed) for seed in seeds]
-    except TypeError:
-        found = [seeds]
-        seeds = None
-    if seeds is None or any(isinstance(seed, bool) or not isinstance(seed, int) for seed in found):
-        shown = found[0] if seeds is None else seeds
-        raise ExperimentError(f"seeds must be a list or range of whole numbers, got {shown!r:.80}: try seeds=range(10)")
+        found = [plain(seed) for seed in seeds]
+    except TypeError:  # it cannot be iterated over
+        found = [None]
+    if isinstance(seeds, bytes) or any(isinstance(seed, bool) or not isinstance(seed, int) for seed in found):
+        raise ExperimentError(f"seeds must be a list or range of whole numbers, got {seeds!r:.80}: try seeds=range(10)")
     if not found:
         raise ExperimentError("there are no seeds, so there is nothing to run: try seeds=range(10)")
     return found
@@ -302,3 +300,54 @@ def check_limits(jobs: Any, **limits: Any) -> None:
     for name, seconds in limits.items():
         if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 < seconds <= 1e9:
             raise ExperimentError(f"{name} must be a number of seconds above 0, got {seconds!r}")
+
+
+# -- the bar -------------------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def bar(total: int, wanted: bool | None) -> Iterator[Callable[[bool], object]]:
+    """Show how many of so many runs are over; `wanted` None: in a live notebook or a terminal. Nothing of it is left.
+
+    What this gives is called with whether a run has failed, for each that is over.
+    """
+    ipython: Any = sys.modules.get("IPython")
+    kernel = getattr(ipython and ipython.get_ipython(), "kernel", None)
+    watched = _is_live(kernel) if kernel is not None else sys.stderr.isatty()
+    if wanted is False or (wanted is None and (not watched or "CI" in os.environ)):
+        yield lambda failed: None
+        return
+    tqdm: Any = import_module("tqdm.std" if kernel is None else "tqdm.notebook").tqdm
+    options = {"dynamic_ncols": True} if kernel is None else {"display": False}
+    Bar = type("Bar", (tqdm,), {"monitor_interval": 0})  # no thread stays behind
+    shown = Bar(total=total, unit="run", leave=False, **options)
+    output: Any = None
+    if kernel is not None:  # the bar is an output that is replaced by an empty text in the end
+        from IPython.display import display
+
+        output = display(shown.container, display_id=True)
+    failures = 0
+
+    def told(failed: bool) -> None:
+        nonlocal failures
+        failures += failed
+        if failures:
+            shown.set_postfix_str(f"{failures} failed", refresh=False)
+        shown.update()
+
+    try:
+        yield told
+    finally:
+        if output is not None:
+            shown.n = shown.total  # or a bar that is stopped would stay, in red
+        shown.close()
+        if output is not None:
+            output.update({"text/plain": ""}, raw=True)
+
+
+def _is_live(kernel: Any) -> bool:
+    """Whether the cell that runs could ask for input: those that nbval, nbconvert or a grader runs could not."""
+    try:
+        return bool(kernel.get_parent("shell")["content"]["allow_stdin"])
+    except (AttributeError, KeyError, TypeError):
+        return False

@@ -14,7 +14,7 @@ import signal
 import tarfile
 import threading
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 from multiprocessing import parent_process
@@ -26,7 +26,7 @@ from uuid import uuid4
 from ..ros.sim import errors
 from ..ros.sim.simulation import NANOSECONDS
 from ..ros.stdlib.ownership import Notebook
-from ..session import inspection
+from ..session import views
 
 if TYPE_CHECKING:
     from ..session.lesson import Lesson
@@ -119,22 +119,19 @@ def open_run(setting: Setting, run: Run) -> Lesson:
 
 def call_in(lesson: Lesson, function: Callable[..., Any], run: Run) -> Ending:
     """Call the function in its world; what came of it. No error is raised."""
-    ending = _called(lesson, function, run)
-    ending.robot_time = lesson.now
-    return ending
-
-
-def _called(lesson: Lesson, function: Callable[..., Any], run: Run) -> Ending:
     try:
         returned = function(lesson, **run.parameters)
     except errors.OutOfTime as error:
-        return Ending(ROBOT_TIME, error=f"the run was not over when {error}", traceback=errors.format_error(error))
+        ending = Ending(ROBOT_TIME, error=f"the run was not over when {error}", traceback=errors.format_error(error))
     except BaseException as error:
-        return Ending(RAISED, error=_in_a_line(error), traceback=errors.format_error(error))
-    try:
-        return Ending(OK, plain_values(function, returned))
-    except TypeError as error:
-        return Ending(RAISED, error=_in_a_line(error))
+        ending = Ending(RAISED, error=_in_a_line(error), traceback=errors.format_error(error))
+    else:
+        try:
+            ending = Ending(OK, plain_values(function, returned))
+        except TypeError as error:
+            ending = Ending(RAISED, error=_in_a_line(error))
+    ending.robot_time = lesson.now
+    return ending
 
 
 def _in_a_line(error: BaseException) -> str:
@@ -255,7 +252,8 @@ def carry_out(run: Run) -> Ending:
     setting = _worker.setting
     run = replace(run, package=setting.places.get(run.package or "", run.package))
     _worker.enter()
-    with _printed() as printed:
+    printed = Tail()
+    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
         lesson = open_run(setting, run)
         try:
             if run.package == "mine":
@@ -263,7 +261,7 @@ def carry_out(run: Run) -> Ending:
             ending = call_in(lesson, load(setting), run)
         finally:
             lesson._world.close()
-            inspection.progress_file.cache_clear()
+            views.progress_file.cache_clear()
     ending.printed = "" if ending.outcome == OK else printed.tail()
     forget_folder(ending, _worker.run)
     return ending
@@ -302,10 +300,3 @@ class Tail(io.TextIOBase):
     def tail(self) -> str:
         """What was printed last."""
         return self._text[-TAIL:]
-
-
-@contextlib.contextmanager
-def _printed() -> Iterator[Tail]:
-    tail = Tail()
-    with contextlib.redirect_stdout(tail), contextlib.redirect_stderr(tail):
-        yield tail

@@ -17,19 +17,16 @@ on `sys.path`.
 from __future__ import annotations
 
 import inspect
-import random
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import pytest
 
-from ..ros.sim import errors
-from ..ros.stdlib.ownership import Notebook
 from .experiment import check_limits, plan
 from .one_run import OPTIONS, ExperimentError, Run, Setting, open_run
+from .replay import Surroundings
 
 if TYPE_CHECKING:
     from ..session.lesson import Lesson
@@ -74,10 +71,11 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if wrong:
         pytest.fail(f"{name}, marked with @pytest.mark.{MARK}: {wrong}", pytrace=False)
     names = [each for each in swept if each not in OPTIONS]
+    values = [[f"{name}={place.run.value_of(name)}" for name in swept] + [f"seed{place.run.seed}"] for place in places]
     metafunc.parametrize(
         [*names, "lesson"],
         [[*(place.run.parameters[each] for each in names), place] for place in places],
-        ids=[_id(place.run, swept) for place in places],
+        ids=map("-".join, values),
         indirect=["lesson"],
     )
 
@@ -119,27 +117,16 @@ def _template(metafunc: pytest.Metafunc) -> Any:
     return function
 
 
-def _id(run: Run, swept: list[str]) -> str:
-    values = {name: run.value_of(name) for name in swept}
-    return "-".join([*(f"{name}={value}" for name, value in values.items()), f"seed{run.seed}"])
-
-
 @pytest.fixture
 def lesson(request: pytest.FixtureRequest) -> Iterator[Lesson]:
     """A fresh world, which is closed at the end of the test: see `turtle_lesson.start`."""
     place = getattr(request, "param", None) or Place(Run(0, 0), Setting(b""))
-    chance, numpys_chance, is_learners = random.getstate(), np.random.get_state(), Notebook.is_learners
-    Notebook.is_learners = staticmethod(errors.is_learners)  # as in a worker of an experiment
-    try:
+    with Surroundings().hold():
         opened = open_run(place.setting, place.run)
         try:
             yield opened
         finally:
             opened._world.close()
-    finally:
-        Notebook.is_learners = staticmethod(is_learners)
-        random.setstate(chance)
-        np.random.set_state(numpys_chance)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -22,15 +22,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..lab.words import enumerated, number
+from ..lab.words import enumerated, number, same, shortened
 from ..ros.runtime import files
 from ..ros.sim import errors
 from ..ros.sim.errors import WorldClosed
 from ..ros.sim.simulation import NANOSECONDS, NEVER
 from ..ros.sim.stepped_call import SteppedCall
 from ..ros.stdlib.ownership import Notebook
-from ..session import inspection
-from ..session.lesson import LONGEST_RUN, Lesson
+from ..session import views
+from ..session.lesson import LONGEST_RUN, Lesson, check_seconds
 from .one_run import (
     CPU_TIME,
     DIED,
@@ -79,7 +79,7 @@ class Replay:
         place = Path(self._folder.name)
         for name, packed in setting.folders.items():
             unpack(packed, place / name)
-        self._surroundings = _Surroundings(place)
+        self._surroundings = Surroundings(place)
         run = replace(run, package=setting.places.get(run.package or "", run.package))
         with self._surroundings.hold(), self._surroundings.printed():
             self.lesson: Lesson = open_run(setting, run)
@@ -106,10 +106,7 @@ class Replay:
 
     def step(self, seconds: float = 1.0) -> None:
         """Let the run go on for some robot time, or to its end. The stop button pauses it; the next step goes on from there."""
-        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds <= LONGEST_RUN:
-            raise ValueError(
-                f"seconds must be a number of seconds of robot time, got {seconds!r}: try replay.step(1.0)"
-            )
+        check_seconds("replay.step", seconds)
         self._go_on(self._world.now + round(seconds * NANOSECONDS))
 
     def run(self, until: float | None = None) -> None:
@@ -176,19 +173,18 @@ class Replay:
         if self.interrupted:
             return "was interrupted in the middle of its own code, so it is no replay any more: open it anew."
         how = "" if ending.outcome == OK else f": {ending.error or ending.outcome}"
-        at = (
-            f"ended at {number(self._world.now / NANOSECONDS if ending.robot_time is None else ending.robot_time, 3)} s"
-        )
+        at = f"ended at {number(ending.robot_time or 0.0, 3)} s"
         if self._expected is None:
             return f"{at} of robot time{how or ', without an error'}."
         row = self.row
-        differing = [name for name, value in row.items() if not _same(value, self._expected.get(name))]
+        differing = [name for name, value in row.items() if not same(value, self._expected.get(name))]
         if not differing:
             return f"{at} of robot time, as in the table{how or ', without an error'}."
         name = differing[0]
+        there, here = (shortened(repr(each), 60) for each in (self._expected.get(name), row[name]))
         return (
-            f"{at} of robot time{how}. That is not as in the table: {name} was {_shown(self._expected.get(name))} there, "
-            f"and is {_shown(row[name])} here. The function, or something that it uses, has changed since then."
+            f"{at} of robot time{how}. That is not as in the table: {name} was {there} there, and is {here} here. "
+            "The function, or something that it uses, has changed since then."
         )
 
     @property
@@ -248,20 +244,13 @@ def _as_it_is_now(function: Callable[..., Any]) -> Callable[..., Any]:
     return now if callable(now) else function
 
 
-def _same(mine: Any, other: Any) -> bool:
-    return mine == other or (mine != mine and other != other)
-
-
-def _shown(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:59]}…"
-
-
-class _Surroundings:
+class Surroundings:
     """What a worker's process has one of, for a function that runs in this one: folder, chance, and where it prints."""
 
-    def __init__(self, folder: Path) -> None:
-        self._state: tuple[Any, ...] = (folder, (None, False, None), None, None, errors.is_learners, "off")
+    def __init__(self, folder: Path | None = None) -> None:
+        """`folder` is the function's; None: the folder that is the current one already."""
+        here, places = (folder, (None, False, None)) if folder else (files.here(), files.places())
+        self._state: tuple[Any, ...] = (here, places, None, None, errors.is_learners, "off")
         self.tail = Tail()
         self._shown = (sys.stdout, sys.stderr)
 
@@ -306,7 +295,7 @@ def _set(state: tuple[Any, ...]) -> None:
         random.setstate(chance)
         np.random.set_state(numpys_chance)
     Notebook.is_learners = staticmethod(is_learners)
-    inspection.progress_file.cache_clear()
+    views.progress_file.cache_clear()
     if progress is None:
         os.environ.pop(PROGRESS, None)
     else:
@@ -316,7 +305,7 @@ def _set(state: tuple[Any, ...]) -> None:
 class _Tee(io.TextIOBase):
     """A stream that shows what is printed in the notebook, and keeps the end of it."""
 
-    def __init__(self, surroundings: _Surroundings, which: int) -> None:
+    def __init__(self, surroundings: Surroundings, which: int) -> None:
         self._surroundings, self._which = surroundings, which
 
     def write(self, text: str) -> int:

@@ -1,20 +1,35 @@
-"""What comes out of an experiment: a row for each run, in the order of the runs, whatever workers carried them out."""
+"""What comes out of an experiment: a row for each run, in the order of the runs, whatever workers carried them out.
+
+Further: what makes an experiment the same, so that saved rows of it are kept; and the picture of a column.
+"""
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
+from importlib.metadata import version
+from math import sqrt
 from pathlib import Path
+from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
-from ..lab.words import count, enumerated
-from .one_run import OK, OPTIONS, Ending, ExperimentError, Run, Setting
-from .table import Table
+import numpy as np
+
+from ..lab import drawing
+from ..lab.drawing import Picture
+from ..lab.words import count, enumerated, listed
+from .one_run import CPU_TIME, DIED, OK, OPTIONS, VERSION, Ending, ExperimentError, Run, Setting, name_of
+from .payload import hash_of, hash_of_folders
+from .table import Table, read, save, text_of
 
 if TYPE_CHECKING:
-    from ..lab.picture import Picture
+    from matplotlib.figure import Figure
+
+    from ..lab.drawing import Picture
     from .replay import Replay
     from .shrink import Smallest
+
 
 FIRST = ("run", "seed")
 LAST = ("robot_time", "error", "traceback", "printed")
@@ -84,13 +99,27 @@ class Results(Table):
     @cached_property
     def runs(self) -> dict[int, Run]:
         """By number, the run of each row."""
-        return {row["run"]: run_of(row, self.swept, self.about.get("world", {})) for row in self.rows}
+        found = {}
+        for row in self.rows:
+            options = self.about.get("world", {}) | {name: row[name] for name in self.swept if name in OPTIONS}
+            parameters = {name: row[name] for name in self.swept if name not in OPTIONS}
+            found[row["run"]] = Run(row["run"], row["seed"], parameters, **options)
+        return found
+
+    @property
+    def returned(self) -> list[str]:
+        """The names of the columns that the function returned."""
+        others = {*FIRST, *self.swept, "outcome", *LAST}
+        return [name for name in self.columns if name not in others]
 
     def row_of(self, run: Run, ending: Ending) -> dict[str, Any]:
         """The row that this table would have for what came of a run."""
-        inputs = {*FIRST, *self.swept, "outcome", *LAST}
-        known = [name for name in self.columns if name not in inputs]
-        return _row(run, ending, self.swept, list(dict.fromkeys([*known, *ending.values])))
+        return _row(run, ending, self.swept, list(dict.fromkeys([*self.returned, *ending.values])))
+
+    def ending_of(self, row: dict[str, Any]) -> Ending:
+        """What came of the run that a row is of."""
+        values = {name: row[name] for name in self.returned if row["outcome"] == OK}
+        return Ending(row["outcome"], values, row["robot_time"], *(row[name] or "" for name in LAST[1:]))
 
     @property
     def summary(self) -> str:
@@ -125,15 +154,11 @@ class Results(Table):
         In a CSV file these are the lines at its beginning that start with "#": `pandas.read_csv(path, comment="#")` passes
         over them. Raises ExperimentError for another kind of file.
         """
-        from .storage import save
-
         return save(self, self.about | {"swept": self.swept, "missing": self.missing}, Path(path))
 
     @staticmethod
     def read(path: str | Path) -> Results:
         """The table of a file that `save` has written. Raises ExperimentError where it is none."""
-        from .storage import read
-
         table, about = read(Path(path))
         try:
             swept, missing = about.pop("swept"), about.pop("missing")
@@ -145,9 +170,20 @@ class Results(Table):
 
     def plot(self, column: str, by: str | None = None) -> Picture:
         """A dot for each run, with quartiles and median; `by` names a column whose values are drawn side by side."""
-        from .pictures import plot
-
-        return plot(self, column, by)
+        parts = [(head.get(by or ""), self.numbers(rows, column), len(rows)) for head, rows in self.groups(by)]
+        if len(parts) > MOST_GROUPS:
+            raise ExperimentError(
+                f"{by} has {len(parts)} values, and a picture shows {MOST_GROUPS}: take some by where(…)"
+            )
+        amount = sum(len(numbers) for _, numbers, _ in parts)
+        if not amount:
+            return Picture(f"There is no {column} to draw: {self.summary}.")
+        names = [column if by is None else f"{by} {text_of(value) or 'None'}" for value, _, _ in parts]
+        told = [_in_words(name, numbers, runs) for name, (_, numbers, runs) in zip(names, parts, strict=True)]
+        text = f"{column} of {count(amount, 'run')}{'' if by is None else f' by {by}'}. {' '.join(told)}"
+        labels = ["all runs" if by is None else text_of(value) or "None" for value, _, _ in parts]
+        with drawing.applied():
+            return Picture(text, _draw(column, by, labels, [numbers for _, numbers, _ in parts], amount))
 
     def rate(self, by: str | None = None) -> Table:
         """How many runs ended well: the share, and the interval in which the true rate lies, with 95 % confidence.
@@ -156,17 +192,60 @@ class Results(Table):
         "Probable inference, the law of succession, and statistical inference", Journal of the American Statistical
         Association 22 (1927), pages 209 to 212.
         """
-        from .pictures import rate
-
-        return rate(self, by)
+        rows = []
+        for head, some in self.groups(by):
+            good = sum(row["outcome"] == OK for row in some)
+            low, high = wilson(good, len(some))
+            share = good / len(some) if some else None
+            rows.append(head | {"runs": len(some), "ok": good, "rate": share, "low": low, "high": high})
+        return Table(rows, [*([] if by is None else [by]), "runs", "ok", "rate", "low", "high"])
 
     def quantiles(
         self, column: str, by: str | None = None, at: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95)
     ) -> Table:
         """The values of a column below which these shares of the runs lie, of runs that have one."""
-        from .pictures import quantiles
+        if not at or not all(isinstance(share, (int, float)) and 0 <= share <= 1 for share in at):
+            raise ExperimentError(f"at must be shares from 0 to 1, such as [0.05, 0.5, 0.95], got {at!r}")
+        names = [f"{100 * share:g} %" for share in at]
+        rows = []
+        for head, some in self.groups(by):
+            numbers = self.numbers(some, column)
+            found = np.quantile(numbers, at).tolist() if len(numbers) else [None] * len(names)
+            rows.append(head | {"runs": len(numbers)} | dict(zip(names, found, strict=True)))
+        return Table(rows, [*([] if by is None else [by]), "runs", *names])
 
-        return quantiles(self, column, by, at)
+    def groups(self, by: str | None) -> list[tuple[dict[str, Any], list[dict[str, Any]]]]:
+        """The rows by the values of a column, in the order in which these first come; all of them where `by` is None.
+
+        Each group begins with the column's name and value, as a row has them.
+        """
+        if by is None:
+            return [({}, self.rows)]
+        self.check(by)
+        found: dict[Any, list[dict[str, Any]]] = {}
+        for row in self.rows:
+            found.setdefault(row[by], []).append(row)
+        return [({by: value}, some) for value, some in found.items()]
+
+    def numbers(self, rows: Sequence[dict[str, Any]], column: str) -> np.ndarray:
+        """The numbers of a column, without those that are missing. Raises ExperimentError for a column of other things."""
+        self.check(column)
+        values = [row[column] for row in rows if row[column] is not None]
+        if not all(isinstance(value, (int, float)) for value in values):
+            raise ExperimentError(f"{column} does not hold numbers")
+        numbers = np.array(values, float)
+        return numbers[~np.isnan(numbers)]
+
+
+def wilson(good: int, amount: int) -> tuple[float, float]:
+    """The interval of Wilson's score for so many successes: https://doi.org/10.1080/01621459.1927.10502953 (1927)."""
+    if not amount:
+        return 0.0, 1.0
+    z = NormalDist().inv_cdf(0.975)
+    share = good / amount
+    middle = (share + z * z / (2 * amount)) / (1 + z * z / amount)
+    half = z / (1 + z * z / amount) * sqrt(share * (1 - share) / amount + z * z / (4 * amount * amount))
+    return (0.0 if good == 0 else middle - half), (1.0 if good == amount else middle + half)
 
 
 def _row(run: Run, ending: Ending, swept: Sequence[str], values: Sequence[str]) -> dict[str, Any]:
@@ -178,17 +257,83 @@ def _row(run: Run, ending: Ending, swept: Sequence[str], values: Sequence[str]) 
     return row | {name: getattr(ending, name) or None for name in LAST[1:]}
 
 
-def run_of(row: dict[str, Any], swept: Sequence[str], world: dict[str, Any]) -> Run:
-    """The run that a row is of; `world` is what was not swept."""
-    given = {name: row[name] for name in swept}
-    parameters = {name: value for name, value in given.items() if name not in OPTIONS}
-    return Run(
-        row["run"], row["seed"], parameters, **(world | {name: given[name] for name in OPTIONS if name in given})
-    )
+def described(function: Callable[..., Any], setting: Setting, world: dict[str, Any]) -> dict[str, Any]:
+    """What is saved with the rows of an experiment; `world` is what all of its runs have in common."""
+    return {
+        "turtle_lesson": VERSION,
+        "python": platform.python_version(),
+        "numpy": version("numpy"),
+        "function": f"{name_of(function)} {hash_of(function)}",
+        "folders": hash_of_folders(setting.folders),
+        "simulator": setting.simulator,
+        "robot_time": float(setting.robot_time),
+        "world": world,
+    }
 
 
-def ending_of(row: dict[str, Any], swept: Sequence[str]) -> Ending:
-    """What came of the run that a row is of."""
-    inputs = {*FIRST, *swept, "outcome", *LAST}
-    values = {name: value for name, value in row.items() if name not in inputs} if row["outcome"] == OK else {}
-    return Ending(row["outcome"], values, row["robot_time"], *(row[name] or "" for name in LAST[1:]))
+def rows_of(
+    path: str | Path, runs: Sequence[Run], swept: Sequence[str], mine: dict[str, Any]
+) -> list[tuple[Run, Ending]]:
+    """What came of those runs that a saved table has. Runs whose process was ended are not among them: they are tried again.
+
+    Raises ExperimentError, which says what differs, where the table is of another experiment.
+    """
+    table = Results.read(path)
+    theirs = table.about
+    if table.swept != list(swept):
+        raise ExperimentError(
+            f"{path} cannot be resumed: it sweeps {listed(table.swept) or 'nothing'}, and this experiment "
+            f"{listed(list(swept)) or 'nothing'}"
+        )
+    for name in ("turtle_lesson", "function", "folders", "simulator", "robot_time", "world"):
+        if theirs.get(name) != mine[name]:
+            raise ExperimentError(
+                f"{path} cannot be resumed: its {name} is {theirs.get(name)!r}, and that of this experiment {mine[name]!r}"
+            )
+    rows = {repr((row["seed"], *(row[name] for name in swept))): row for row in table.rows}
+    found = [(run, rows.get(repr((run.seed, *(run.value_of(name) for name in swept))))) for run in runs]
+    return [(run, table.ending_of(row)) for run, row in found if row and row["outcome"] not in (CPU_TIME, DIED)]
+
+
+# -- the picture ---------------------------------------------------------------------------------------------------------
+
+MOST_GROUPS = 24
+"""A picture with more groups than that cannot be read."""
+
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 6.4, 3.4, 0.75, 0.25, 0.72, 0.55
+"""The card, and what is around the axes, in inches."""
+
+
+def _in_words(name: str, numbers: np.ndarray, runs: int) -> str:
+    without = f", {runs - len(numbers)} without a value" if runs > len(numbers) else ""
+    if not len(numbers):
+        return f"{name}: {count(runs, 'run')}{without}."
+    low, middle, high = (text_of(float(each)) for each in np.quantile(numbers, [0.25, 0.5, 0.75]))
+    least, most = text_of(float(numbers.min())), text_of(float(numbers.max()))
+    spread = f"median {middle}, half of them from {low} to {high}, all from {least} to {most}"
+    return f"{name}: {count(runs, 'run')}{without}, {spread}."
+
+
+def _draw(column: str, by: str | None, labels: list[str], parts: list[np.ndarray], amount: int) -> Figure:
+    figure = drawing.card(WIDTH, HEIGHT)
+    beside = "" if by is None else f" by {by}"
+    drawing.heading(figure, f"{column}{beside}", f"{count(amount, 'run')}  ·  median and quartiles")
+    axes = drawing.axes_at(figure, LEFT, BOTTOM, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM)
+    axes.set_xlim(-0.5, len(parts) - 0.5)
+    axes.set_xticks(range(len(parts)), labels)
+    axes.grid(visible=False, axis="x")
+    axes.set_ylabel(column)
+    axes.set_xlabel(by or "")
+    for place, numbers in enumerate(parts):
+        if len(numbers):
+            low, middle, high = np.quantile(numbers, [0.25, 0.5, 0.75])
+            # spread evenly, so that equal dots stay apart: by the golden ratio no two lie side by side
+            aside = place + 0.5 * ((np.arange(len(numbers)) * 0.618034) % 1 - 0.5)
+            axes.bar(
+                place, high - low, 0.62, low, color=drawing.SKY + "40", edgecolor=drawing.SKY, linewidth=0.8, zorder=2
+            )
+            axes.plot(
+                aside, numbers, linestyle="none", marker="o", markersize=3, color=drawing.BLUE, alpha=0.7, zorder=3
+            )
+            axes.plot([place - 0.31, place + 0.31], [middle] * 2, color=drawing.VERMILLION, linewidth=2, zorder=4)
+    return figure

@@ -56,9 +56,9 @@ class Smallest:
 
     def told(self) -> str:
         """The change in a sentence."""
-        tried = count(self.tried, "more run")
         if not self.base:
             return ""
+        tried = count(self.tried, "more run")
         if not self.change:
             return f"All parameters have their first values there, so no change is needed for that ({tried})."
         parts = [f"{name}={value!r} instead of {self.base[name]!r}" for name, value in self.change.items()]
@@ -74,9 +74,8 @@ def smallest_change(
     A stop by the user (KeyboardInterrupt) ends the search with what is known by then.
     """
     found = Smallest(failed, ending, dict(base))
-    search = _Search(found, carry_out)
     try:
-        found.complete = search.go()
+        found.complete = _Search(found, carry_out).go()
     except KeyboardInterrupt:
         print("Stopped; a smaller change was not looked for any further.")
     return found
@@ -87,7 +86,7 @@ class _Search:
         self.found, self.carry_out = found, carry_out
         self.kind = _kind(found.ending)
         self.spans = {name: found.run.value_of(name) for name in found.base}
-        self.passes: dict[str, bool] = {}
+        self.passes = set[str]()
 
     def go(self) -> bool:
         """Make the change smaller until nothing changes; whether that was reached before there were too many runs."""
@@ -114,14 +113,12 @@ class _Search:
         changed: dict[str, Any] = {name: value}
         run = replace(found.run, **(changed if name in OPTIONS else {"parameters": found.run.parameters | changed}))
         key = repr([run.value_of(each) for each in found.base])
-        if key in self.passes:
-            return False
-        if found.tried >= MOST_RUNS:
+        if key in self.passes or found.tried >= MOST_RUNS:
             return False
         found.tried += 1
         ending = self.carry_out(run)
         if _kind(ending) != self.kind:
-            self.passes[key] = True
+            self.passes.add(key)
             return False
         found.run, found.ending = run, ending
         return True

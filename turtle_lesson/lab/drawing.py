@@ -1,23 +1,223 @@
-"""What pictures of the world share: the turtle and the obstacles seen from above, and small drawings as SVG."""
+"""How everything is drawn: the one look, `Picture`, the turtle and the obstacles seen from above, and small drawings as SVG.
+
+The look is quiet, readable on a light and on a dark page, and told apart by all eyes. Colours are those of Okabe and Ito
+(https://jfly.uni-koeln.de/color/). A picture has no ground of its own: its text and lines are as far from white as from a dark
+page, so that one file suits both themes. Matplotlib is imported with the first picture, not before, and `pyplot` never: its
+list of open figures is shared with the learner's own plots.
+"""
 
 from __future__ import annotations
 
 import base64
 import html
+import io
+import logging
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import style
+from ..ros.sim.defer_sigint import defer_sigint
 from .recording import Obstacle
 from .words import number
 
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
-SHELL, RIM, SKIN, OUTLINE = style.GREEN, style.DARK_GREEN, "#8fd0b5", "#0b4636"
+BLUE, SKY, GREEN, ORANGE = "#1A80C4", "#56B4E9", "#009E73", "#E69F00"
+VERMILLION, PURPLE, YELLOW = "#D55E00", "#CC79A7", "#F0E442"
+
+INK = "#767b82"
+"""Text and outlines: 4.3 : 1 on white, 4.4 : 1 on the dark page of JupyterLab; no grey does better on both."""
+DARK_ORANGE, DARK_GREEN = "#b57b00", "#00785a"
+"""The edges of what is filled with ORANGE or GREEN."""
+LINE = "#80808033"
+"""Grid lines and quiet areas."""
+EDGE = "#80808066"
+"""The edge of a picture, and lines that divide it."""
+
+DPI = 100
+"""Pixels an inch at which a picture is shown; it is drawn with twice as many (see `SHARPNESS`)."""
+
+SETTINGS: Any = {
+    "font.family": "sans-serif",
+    # The one font that comes with matplotlib, so that it is there on every machine.
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.0,
+    "text.color": INK,
+    "axes.edgecolor": EDGE,
+    "axes.facecolor": "none",
+    "axes.labelcolor": INK,
+    "axes.labelsize": 9.0,
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.unicode_minus": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.formatter.useoffset": False,
+    "grid.color": LINE,
+    "grid.linewidth": 0.7,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "xtick.major.size": 0.0,
+    "ytick.major.size": 0.0,
+    "lines.linewidth": 1.6,
+    "lines.solid_capstyle": "round",
+    "lines.solid_joinstyle": "round",
+    "path.simplify": True,
+    "text.usetex": False,
+    "text.parse_math": False,
+    "savefig.bbox": None,
+    "svg.hashsalt": "turtle lesson",
+}
+
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Within this block, matplotlib draws in our style; the learner's own settings come back afterwards."""
+    with _matplotlib().rc_context(SETTINGS):
+        yield
+
+
+@cache
+def _matplotlib() -> Any:
+    """The whole of matplotlib that pictures need, imported in one go that nothing interrupts."""
+    # When matplotlib starts for the first time ever, it lists the machine's fonts, and says so if that takes
+    # long: a remark that has no place below a learner's cell.
+    logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
+    with defer_sigint():
+        import matplotlib
+        import matplotlib.backends.backend_agg
+        import matplotlib.collections
+        import matplotlib.figure
+        import matplotlib.font_manager
+        import matplotlib.lines
+        import matplotlib.patches
+        import matplotlib.ticker
+        import PIL.Image  # noqa: F401
+    return matplotlib
+
+
+def card(width: float, height: float) -> Figure:
+    """An empty figure (inches): a frame with round corners on a transparent ground."""
+    from matplotlib.figure import Figure
+    from matplotlib.patches import FancyBboxPatch
+
+    figure = Figure(figsize=(width, height), dpi=DPI, facecolor="none")
+    edge = 2.0 / DPI
+    look: dict[str, Any] = {"facecolor": "none", "edgecolor": EDGE, "linewidth": 0.8, "zorder": -10}
+    sheet = FancyBboxPatch((edge, edge), width - 2 * edge, height - 2 * edge, "round,pad=0,rounding_size=0.09", **look)
+    sheet.set_transform(figure.dpi_scale_trans)
+    figure.add_artist(sheet)
+    return figure
+
+
+def heading(figure: Figure, title: str, subtitle: str) -> None:
+    """Title and, beneath it, the main figures, in the card's upper left corner."""
+    width, height = figure.get_size_inches()
+    figure.text(0.2 / width, 1 - 0.17 / height, title, fontsize=11.5, fontweight="bold", va="top")
+    minus = subtitle.replace("-", "−")
+    figure.text(0.2 / width, 1 - 0.41 / height, minus, fontsize=8.8, va="top")
+
+
+def axes_at(figure: Figure, left: float, bottom: float, width: float, height: float, **options: Any) -> Axes:
+    """Axes at a place given in inches from the card's lower left corner."""
+    full_width, full_height = figure.get_size_inches()
+    place = (left / full_width, bottom / full_height, width / full_width, height / full_height)
+    return figure.add_axes(place, **options)
+
+
+SHARPNESS = 2
+"""Pixels drawn for each pixel shown, so that a picture is sharp on a fine screen."""
+
+
+class Picture:
+    """A figure and its exact text: a notebook shows the figure, print and a screen reader give the text.
+
+    `text` is one paragraph. `figure` is a matplotlib Figure, or None where there was nothing to draw: then
+    the text says what is missing and what to try.
+    """
+
+    def __init__(self, text: str, figure: Figure | None = None) -> None:
+        self.text = text
+        self.figure = figure
+
+    def __repr__(self) -> str:
+        return self.text
+
+    def _ipython_display_(self) -> None:
+        """Show the figure, and below it the text, folded: JupyterLab and its static pages give a PNG no alternative text."""
+        from IPython.display import display
+
+        bundle = self._repr_mimebundle_()
+        data, metadata = bundle if isinstance(bundle, tuple) else (bundle, {})
+        display(data, metadata=metadata, raw=True)
+        if self.figure is not None:
+            words = f"<details><summary>In words</summary><p>{html.escape(self.text)}</p></details>"
+            display({"text/html": words}, raw=True)
+
+    def _repr_mimebundle_(self, **options: object) -> Any:
+        """What Jupyter shows: PNG and text, and as metadata the size to show and the alternative text."""
+        data: dict[str, Any] = {"text/plain": self.text}
+        if self.figure is None:
+            return data
+        width, height = (round(inches * DPI) for inches in self.figure.get_size_inches())
+        data["image/png"] = self.png()
+        return data, {"image/png": {"width": width, "height": height, "alt": self.text}}
+
+    def png(self) -> bytes:
+        """The figure as the bytes of a PNG file, the same bytes whenever it is drawn.
+
+        It has 256 colours: a flat drawing needs no more, and a page stores a quarter of the bytes.
+        """
+        from PIL import Image
+
+        pixels = Image.fromarray(self.pixels())
+        stream = io.BytesIO()
+        pixels.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(stream, "png")
+        return stream.getvalue()
+
+    def pixels(self) -> np.ndarray:
+        """The figure as rows of pixels with red, green, blue and opacity, `SHARPNESS` of them for each pixel shown."""
+        import numpy as np
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        figure = self._figure()
+        figure.dpi = DPI * SHARPNESS
+        try:
+            with applied():
+                canvas = FigureCanvasAgg(figure)
+                canvas.draw()
+                return np.asarray(canvas.buffer_rgba())
+        finally:
+            figure.dpi = DPI
+
+    def save(self, path: str | Path) -> Path:
+        """Write the figure to a file in the format of its ending (png, svg, pdf); returns the path."""
+        path = Path(path)
+        if path.suffix.lower() == ".png":
+            path.write_bytes(self.png())
+            return path
+        without_date: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+        with applied():
+            self._figure().savefig(path, metadata=without_date.get(path.suffix.lower()))
+        return path
+
+    def _figure(self) -> Figure:
+        if self.figure is None:
+            raise ValueError(f"there is no figure yet, only a text: {self.text}")
+        return self.figure
+
+
+SHELL, RIM, SKIN, OUTLINE = GREEN, DARK_GREEN, "#8fd0b5", "#0b4636"
 
 # The turtle looks along +x, its length is 1, its middle (0, 0). Ellipses: x, y, width, height, degrees.
 LEGS = ((0.23, 0.27, 0.30, 0.15, 55.0), (-0.25, 0.25, 0.24, 0.13, 128.0))
@@ -84,7 +284,7 @@ def draw_obstacles(axes: Axes, obstacles: Iterable[Obstacle]) -> None:
     """Draw the obstacles where they stand."""
     from matplotlib.patches import Ellipse, Rectangle
 
-    colours: dict[str, Any] = {"facecolor": style.ORANGE + "66", "edgecolor": style.DARK_ORANGE}
+    colours: dict[str, Any] = {"facecolor": ORANGE + "66", "edgecolor": DARK_ORANGE}
     for each in obstacles:
         look = {**colours, "angle": math.degrees(each.angle), "linewidth": 1.0, "zorder": 2}
         if each.shape == "box":
@@ -106,7 +306,7 @@ def text_width(text: str, size: float) -> float:
     return size * sum(0.36 if each in NARROW else 0.92 if each in WIDE else 0.61 for each in text)
 
 
-def text(x: float, y: float, words: str, size: float = 12, anchor: str = "middle", fill: str = style.INK) -> str:
+def text(x: float, y: float, words: str, size: float = 12, anchor: str = "middle", fill: str = INK) -> str:
     """Words whose baseline is at `y`, and whose middle (or "start" or "end") is at `x`."""
     look = f'font-size="{size:g}" text-anchor="{anchor}" fill="{fill}"'
     return f'<text x="{number(x, 1)}" y="{number(y, 1)}" {look}>{html.escape(words)}</text>'

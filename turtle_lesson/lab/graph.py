@@ -7,10 +7,11 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from statistics import fmean
 from typing import TYPE_CHECKING
 
 from ..ros.idl.names import is_hidden
-from . import drawing, style
+from . import drawing
 from .words import count, listed, number
 
 if TYPE_CHECKING:
@@ -281,7 +282,7 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
     for _ in range(8):
         for boxes in columns.values():
             wanted = {
-                box: _mean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
+                box: fmean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
                 for box in boxes
             }
             boxes.sort(key=wanted.__getitem__)
@@ -294,17 +295,13 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
         bottom = max(bottom, box.middle + box.height / 2)
 
 
-def _mean(values: list[float]) -> float:
-    return math.fsum(values) / len(values)
-
-
 def _stack(boxes: list[Box], wanted: list[float]) -> None:
     """Put boxes below one another, none upon another, on average where they are wanted."""
     bottom = -math.inf
     for box, middle in zip(boxes, wanted, strict=True):
         box.middle = max(middle, bottom + GAP + box.height / 2)
         bottom = box.middle + box.height / 2
-    off = _mean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
+    off = fmean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
     for box in boxes:
         box.middle -= off
 
@@ -341,8 +338,8 @@ def _draw_arrow(arrow: Arrow, lefts: dict[str, float], widths: dict[str, float])
     dash = ' stroke-dasharray="5 4"' if arrow.dashed else ""
     tip, up, down = number(end[0], 1), number(end[1] - 4, 1), number(end[1] + 4, 1)
     return (
-        f'<path d="M{x},{y}C{middle},{y} {middle},{stop_y} {stop_x},{stop_y}" fill="none" stroke="{style.INK}" '
-        f'stroke-width="1.4"{dash}/><path d="M{tip},{stop_y}L{stop_x},{up}V{down}Z" fill="{style.INK}"/>'
+        f'<path d="M{x},{y}C{middle},{y} {middle},{stop_y} {stop_x},{stop_y}" fill="none" stroke="{drawing.INK}" '
+        f'stroke-width="1.4"{dash}/><path d="M{tip},{stop_y}L{stop_x},{up}V{down}Z" fill="{drawing.INK}"/>'
     )
 
 

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from . import style
-from .drawing import draw_obstacles, draw_turtle, turtle_points
-from .picture import Picture
+from . import drawing
+from .drawing import Picture, draw_obstacles, draw_turtle, turtle_points
 from .recording import WORLD, Recording, Table
 from .words import angle, count, number, point, turned
 
@@ -193,7 +192,7 @@ def plot_path(
         *(_to_goal(each, poses[-1]) for each in goals),
         f"{count(len(places), 'obstacle').capitalize()} in the world: {', '.join(places)}." if places else "",
     ]
-    with style.applied():
+    with drawing.applied():
         figure = _draw(recording, poses, jumps, driven, goals)
     return Picture(" ".join(filter(None, sentences)), figure)
 
@@ -222,11 +221,11 @@ def _to_goal(goal: Goal, pose: Any) -> str:
 
 
 def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: float, goals: list[Goal]) -> Figure:
-    figure = style.card(5.3, 5.6)
+    figure = drawing.card(5.3, 5.6)
     begin, end = (number(recording.seconds(pose["stamp"]), 1) for pose in (poses[0], poses[-1]))
     subtitle = f"{begin} s to {end} s of robot time  ·  {number(driven)} m driven"
-    style.heading(figure, f"Path of {recording.turtle}", subtitle)
-    axes = style.axes_at(figure, 0.55, 0.5, 4.5, 4.5)
+    drawing.heading(figure, f"Path of {recording.turtle}", subtitle)
+    axes = drawing.axes_at(figure, 0.55, 0.5, 4.5, 4.5)
     axes.set(xlim=(0, WORLD), ylim=(0, WORLD), aspect="equal", xlabel="x in metres", ylabel="y in metres")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_ticks(range(0, 12, 2))
@@ -234,7 +233,7 @@ def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: fl
     axes.tick_params(which="both", length=0)
     axes.grid(True, which="both")
     for spine in axes.spines.values():
-        spine.set(visible=True, color=style.INK, linewidth=1.4, zorder=4)
+        spine.set(visible=True, color=drawing.INK, linewidth=1.4, zorder=4)
     draw_obstacles(axes, recording.obstacles.values())
     last = poses[-1]
     signs = [turtle_points(last["x"], last["y"]), *map(goal_points, goals)]
@@ -252,9 +251,9 @@ def _draw_trail(axes: Axes, poses: np.ndarray, jumps: np.ndarray, taken: np.ndar
     """
     places = np.column_stack([poses["x"], poses["y"]])
     for jump in jumps:
-        axes.plot(*places[jump - 1 : jump + 1].T, color=style.INK, linestyle=":", linewidth=1.0, zorder=3)
+        axes.plot(*places[jump - 1 : jump + 1].T, color=drawing.INK, linestyle=":", linewidth=1.0, zorder=3)
     chosen = thinned(poses, jumps)
-    look: dict[str, Any] = {"color": style.BLUE, "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 3}
+    look: dict[str, Any] = {"color": drawing.BLUE, "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 3}
     for band, part in enumerate(np.array_split(np.arange(len(chosen) - 1), BANDS)):
         if len(part):
             rows = chosen[part[0] : part[-1] + 2]
@@ -280,7 +279,7 @@ def _draw_heads(axes: Axes, pieces: np.ndarray, size: float = 0.15) -> None:
         across = 0.8 * np.array([-along[1], along[0]])
         tip = pieces[mark, 1] + along / 2
         heads.append([tip - along + across, tip, tip - along - across])
-    look: dict[str, Any] = {"colors": style.BLUE, "linewidths": 1.6, "capstyle": "round", "zorder": 3.2}
+    look: dict[str, Any] = {"colors": drawing.BLUE, "linewidths": 1.6, "capstyle": "round", "zorder": 3.2}
     axes.add_collection(LineCollection(heads, **look), autolim=False)
 
 
@@ -289,9 +288,9 @@ def _draw_start(axes: Axes, places: np.ndarray, taken: np.ndarray) -> None:
     x, y = places[0]
     away = places[np.hypot(*(places - places[0]).T) > 0.5]
     behind = math.atan2(*(places[0] - away[0])[::-1]) if len(away) else -math.pi / 2
-    ring: dict[str, Any] = {"markerfacecolor": "#d3e6f3", "markeredgecolor": style.BLUE, "markeredgewidth": 1.6}
+    ring: dict[str, Any] = {"markerfacecolor": "#d3e6f3", "markeredgecolor": drawing.BLUE, "markeredgewidth": 1.6}
     axes.plot([x], [y], marker="o", markersize=6.5, zorder=3.5, **ring)
-    label: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 8.5, "color": style.INK}
+    label: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 8.5, "color": drawing.INK}
     axes.text(*_free_place(x, y, behind, taken), "start", zorder=3.5, **label)
 
 
@@ -348,9 +347,9 @@ def _draw_goal(axes: Axes, goal: Goal) -> None:
     """Draw a flag, the ring within which the goal counts as reached, and on it a pointer for the heading."""
     from matplotlib.patches import Circle, Polygon
 
-    x, y, colour = goal.x, goal.y, style.VERMILLION
+    x, y, colour = goal.x, goal.y, drawing.VERMILLION
     axes.add_artist(Circle((x, y), TOLERANCE, facecolor=colour + "22", edgecolor=colour, linewidth=1.2, zorder=4))
-    axes.plot([x, x], [y, y + 0.85], color=style.INK, linewidth=1.3, zorder=7, solid_capstyle="round")
+    axes.plot([x, x], [y, y + 0.85], color=drawing.INK, linewidth=1.3, zorder=7, solid_capstyle="round")
     flag = [(x, y + 0.87), (x + 0.44, y + 0.71), (x, y + 0.55)]
     axes.add_artist(Polygon(flag, closed=True, facecolor=colour, edgecolor="none", zorder=7))
     if goal.theta is not None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from . import drawing, style
+from . import drawing
 from .path import TOLERANCE, Goal
 from .recording import WORLD
 from .words import did_you_mean, enumerated, listed, number, point
@@ -286,13 +286,13 @@ def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess
     if goal is not None:
         signs.append((_flag(*_pixels(goal), SCALE), _flag(-2, 6, 16), _words("goal", goal)))
     if guess is not None:
-        ring = f'fill="none" stroke="{style.BLUE}" stroke-width="3"'
+        ring = f'fill="none" stroke="{drawing.BLUE}" stroke-width="3"'
         signs.append((_disc(*_pixels(guess), 8, ring), _disc(0, 0, 8, ring), _words("your guess", guess)))
-    full = f'fill="{style.PURPLE}"'
+    full = f'fill="{drawing.PURPLE}"'
     signs.append((_disc(*_pixels(outcome), 6, full), _disc(0, 0, 6, full), _words("outcome", outcome)))
     parts = _axes()
     if guess is not None:
-        parts.append(_line(*_pixels(guess), *_pixels(outcome), style.INK, 'stroke-dasharray="4 4"'))
+        parts.append(_line(*_pixels(guess), *_pixels(outcome), drawing.INK, 'stroke-dasharray="4 4"'))
     parts += [on_map for on_map, _, _ in signs]
     top = TOP + SIDE + BOTTOM
     for row, (_, sign, words) in enumerate(signs):
@@ -321,7 +321,7 @@ def _axes() -> list[str]:
     parts = []
     for metre in range(1, int(WORLD) + 1):
         x, y = _pixels((metre, metre))
-        parts += [_line(x, TOP, x, TOP + SIDE, style.LINE), _line(LEFT, y, LEFT + SIDE, y, style.LINE)]
+        parts += [_line(x, TOP, x, TOP + SIDE, drawing.LINE), _line(LEFT, y, LEFT + SIDE, y, drawing.LINE)]
     for metre in range(0, 11, 2):
         x, y = _pixels((metre, metre))
         parts.append(drawing.text(x, TOP + SIDE + 16, f"{metre}", 11))
@@ -329,7 +329,9 @@ def _axes() -> list[str]:
     parts.append(drawing.text(LEFT + SIDE / 2, TOP + SIDE + 32, "x in metres", 11))
     across = f'transform="translate(12 {number(TOP + SIDE / 2, 1)}) rotate(-90)"'
     parts.append(f"<g {across}>{drawing.text(0, 0, 'y in metres', 11)}</g>")
-    frame = f'width="{number(SIDE, 1)}" height="{number(SIDE, 1)}" fill="none" stroke="{style.INK}" stroke-width="1.5"'
+    frame = (
+        f'width="{number(SIDE, 1)}" height="{number(SIDE, 1)}" fill="none" stroke="{drawing.INK}" stroke-width="1.5"'
+    )
     return [*parts, f'<rect x="{LEFT:g}" y="{TOP:g}" {frame}/>']
 
 
@@ -347,7 +349,7 @@ def _flag(x: float, y: float, scale: float) -> str:
     corners = " ".join(
         f"{number(right * scale, 1)},{number(-up * scale, 1)}" for right, up in ((0, 0.87), (0.44, 0.71), (0, 0.55))
     )
-    ring = f'<circle r="{number(TOLERANCE * scale, 1)}" fill="none" stroke="{style.VERMILLION}" stroke-width="1.5"/>'
-    pole = _line(0, 0, 0, -0.87 * scale, style.INK, 'stroke-width="1.5"')
+    ring = f'<circle r="{number(TOLERANCE * scale, 1)}" fill="none" stroke="{drawing.VERMILLION}" stroke-width="1.5"/>'
+    pole = _line(0, 0, 0, -0.87 * scale, drawing.INK, 'stroke-width="1.5"')
     place = f"translate({number(x, 1)} {number(y, 1)})"
-    return f'<g transform="{place}">{ring}{pole}<polygon points="{corners}" fill="{style.VERMILLION}"/></g>'
+    return f'<g transform="{place}">{ring}{pole}<polygon points="{corners}" fill="{drawing.VERMILLION}"/></g>'

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import style
-from .drawing import draw_turtle
-from .picture import Picture
+from . import drawing
+from .drawing import Picture, draw_turtle
 from .recording import SCAN_TOPIC, Recording
 from .words import angle, count, number, rate
 
@@ -92,7 +91,7 @@ def plot_scan(recording: Recording) -> Picture:
     beams = read_beams(recording.last_scan)
     stamps = recording.scans.array()["stamp"]
     second = float(recording.seconds(stamps[-1]))
-    with style.applied():
+    with drawing.applied():
         figure = _draw(beams, second)
     moment = f"Scan on {SCAN_TOPIC} at {number(second)} s of robot time"
     return Picture(f"{moment}: {' '.join(_sentences(beams))} So far: {rate(stamps)}.", figure)
@@ -125,7 +124,7 @@ def _draw(beams: Beams, second: float) -> Figure:
     low, high, side = (-1.1 if beams.whole else -0.1), 1.1, 1.25
     width = 5.9
     height = width * (high - low) / (2 * side)
-    figure = style.card(6.4, height + 0.82)
+    figure = drawing.card(6.4, height + 0.82)
     figures = f"{int(beams.sees.sum())} of {len(beams)} beams see something"
     best, room = beams.nearest(), math.inf
     if best is not None:
@@ -133,8 +132,8 @@ def _draw(beams: Beams, second: float) -> Figure:
         degrees = number(math.degrees(beams.angles[best]), 0)
         figures += f", the nearest at {number(beams.ranges[best])} m, {degrees}°"
     subtitle = f"{SCAN_TOPIC} at {number(second, 1)} s of robot time  ·  {figures}"
-    style.heading(figure, "What the obstacle detector sees", subtitle)
-    axes = style.axes_at(figure, 0.25, 0.12, width, height)
+    drawing.heading(figure, "What the obstacle detector sees", subtitle)
+    axes = drawing.axes_at(figure, 0.25, 0.12, width, height)
     reach = reach_of(beams)
     axes.set(xlim=(-side * reach, side * reach), ylim=(low * reach, high * reach), aspect="equal")
     axes.axis("off")
@@ -154,19 +153,19 @@ def reach_of(beams: Beams) -> float:
 
 def _draw_rings(axes: Axes, reach: float, whole: bool) -> None:
     """Draw range rings with their metres, and rays with their angles, over half a circle or a whole one."""
-    label: dict[str, Any] = {"fontsize": 7.5, "color": style.INK, "va": "center"}
+    label: dict[str, Any] = {"fontsize": 7.5, "color": drawing.INK, "va": "center"}
     side = math.pi if whole else math.pi / 2
     arc = np.linspace(-side, side, 181)
     step = nice_step(reach)
     for ring in [*np.arange(step, reach - 0.3 * step, step), reach]:
-        colour = style.INK if ring == reach else style.EDGE
+        colour = drawing.INK if ring == reach else drawing.EDGE
         beside = np.where(np.abs(arc) * ring < 0.045 * reach, np.nan, arc)  # room for the metres
         axes.plot(*_polar(beside, np.full(len(arc), ring)), color=colour, linewidth=0.8, zorder=2)
         axes.text(*_polar(0.0, ring), f"{ring:g} m", zorder=4, ha="center", **label)
     for degrees in range(-180, 180, 30) if whole else range(-90, 91, 30):
         turn = math.radians(degrees)
         if degrees:
-            axes.plot(*_polar(turn, np.array([0.0, reach])), color=style.LINE, linewidth=0.8, zorder=1)
+            axes.plot(*_polar(turn, np.array([0.0, reach])), color=drawing.LINE, linewidth=0.8, zorder=1)
             x, y = _polar(turn, reach * 1.03)
             text = f"{math.degrees(turn):+.0f}°\n{turn:+.2f} rad".replace("-", "−")
             align = "right" if x < -0.1 * reach else "left" if x > 0.1 * reach else "center"
@@ -180,15 +179,15 @@ def _draw_beams(axes: Axes, beams: Beams, reach: float) -> None:
     nearest = beams.nearest()
     ends = np.where(beams.sees, np.minimum(beams.ranges, reach), reach)
     xs, ys = _polar(beams.angles, ends)
-    axes.fill(np.append(xs, 0.0), np.append(ys, 0.0), color=style.SKY + "38", linewidth=0, zorder=1.5)
+    axes.fill(np.append(xs, 0.0), np.append(ys, 0.0), color=drawing.SKY + "38", linewidth=0, zorder=1.5)
     rays = [((0.04 * x, 0.04 * y), (x, y)) for x, y in zip(xs, ys, strict=True)]
-    axes.add_collection(LineCollection(rays, colors=style.SKY + "60", linewidths=0.5, zorder=1.6), autolim=False)
+    axes.add_collection(LineCollection(rays, colors=drawing.SKY + "60", linewidths=0.5, zorder=1.6), autolim=False)
     if nearest is None:
         return
     dots: dict[str, Any] = {"marker": "o", "markersize": 3.4, "markeredgewidth": 0, "linestyle": "none"}
-    axes.plot(xs[beams.sees], ys[beams.sees], color=style.VERMILLION, zorder=6, **dots)
+    axes.plot(xs[beams.sees], ys[beams.sees], color=drawing.VERMILLION, zorder=6, **dots)
     ring: dict[str, Any] = {"marker": "o", "markersize": 10, "markerfacecolor": "none", "markeredgewidth": 1.2}
-    axes.plot(xs[nearest], ys[nearest], markeredgecolor=style.INK, zorder=7, **ring)
+    axes.plot(xs[nearest], ys[nearest], markeredgecolor=drawing.INK, zorder=7, **ring)
 
 
 def nice_step(reach: float) -> float:

@@ -11,11 +11,11 @@ from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..ros.idl.names import nearest
-from . import drawing, style
+from . import drawing
 from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture, plain_line
 from .recording import NANOSECONDS
 from .timeline import SHORT, Window, window_of
-from .words import count, listed, number
+from .words import count, listed, number, shortened
 
 if TYPE_CHECKING:
     from ..ros.rmw.trace import Call, Callback, Trace
@@ -25,9 +25,7 @@ MOST = 8
 
 
 def plot_sequence(trace: Trace, *services: str, since: float | None = None, until: float | None = None) -> GraphPicture:
-    """Return the newest calls of some services (of all but the parameters' if none is named) as a diagram and in words.
-
-    `since` and `until` are in seconds since the lesson's start: when a call was asked.
+    """What `Lesson.plot_sequence` returns: the newest calls as a diagram and in words.
 
     Raises TypeError or ValueError for what is no service, or none that was called, with those that were.
     """
@@ -145,7 +143,7 @@ def fields(message: Any) -> str:
     """A message's fields and values: "x 5.0, y 5.0, theta 0.0"."""
     values = [f"{name} {_value(getattr(message, name))}" for name in message.get_fields_and_field_types()]
     text = ", ".join(values) or "empty"
-    return text if len(text) <= 90 else f"{text[:89]}…"
+    return shortened(text, 90)
 
 
 def _value(value: Any) -> str:
@@ -221,7 +219,7 @@ def draw_sequence(programs: Sequence[str], events: Sequence[Event], title: str, 
         elif event.kind == "deactivate":  # while a callback runs, or waits, there is a bar
             begin = busy[event.of].pop()
             size = f'y="{number(begin, 1)}" width="8" height="{number(y - begin, 1)}"'
-            bars.append(f'<rect x="{x - 4:g}" {size} fill="{style.GREEN}" opacity="0.7"/>')
+            bars.append(f'<rect x="{x - 4:g}" {size} fill="{drawing.GREEN}" opacity="0.7"/>')
         else:
             lines = [line for part in event.text.split("<br/>") for line in textwrap.wrap(part, LONGEST)]
             y += LINE * len(lines) + 14
@@ -229,7 +227,7 @@ def draw_sequence(programs: Sequence[str], events: Sequence[Event], title: str, 
             y += 6
     y += 12
     columns = [
-        f'<path d="M{x:g},30V{number(y, 1)}" stroke="{style.EDGE}" stroke-width="1.2"/>' for x in places.values()
+        f'<path d="M{x:g},30V{number(y, 1)}" stroke="{drawing.EDGE}" stroke-width="1.2"/>' for x in places.values()
     ]
     heads = [_box(x, 6, drawing.text_width(name, 12.5) + 24, 24, [name], "nodes") for name, x in places.items()]
     width = 2 * EDGE + APART * (len(programs) - 1)
@@ -245,7 +243,7 @@ def _draw(event: Event, x: float, to: float, y: float, lines: list[str]) -> str:
     if event.kind == "lost":
         end = x + APART / 2
         cross = f"M{end - 5:g},{number(y - 5, 1)}l10,10m0,-10l-10,10"
-        arrow = f'<path d="M{x:g},{number(y, 1)}H{end:g}{cross}" stroke="{style.VERMILLION}" stroke-width="1.6" fill="none"/>'
+        arrow = f'<path d="M{x:g},{number(y, 1)}H{end:g}{cross}" stroke="{drawing.VERMILLION}" stroke-width="1.6" fill="none"/>'
     else:
         end = to
         side = 1 if to > x else -1
@@ -253,8 +251,8 @@ def _draw(event: Event, x: float, to: float, y: float, lines: list[str]) -> str:
         stop = to - 12 * side
         head = f"M{to - 4 * side:g},{number(y, 1)}l{-9 * side},-4.5v9Z"
         arrow = (
-            f'<path d="M{x + 4 * side:g},{number(y, 1)}H{stop:g}" stroke="{style.INK}" stroke-width="1.5"{dash}/>'
-            f'<path d="{head}" fill="{style.INK}"/>'
+            f'<path d="M{x + 4 * side:g},{number(y, 1)}H{stop:g}" stroke="{drawing.INK}" stroke-width="1.5"{dash}/>'
+            f'<path d="{head}" fill="{drawing.INK}"/>'
         )
     first = y - 6 - LINE * (len(lines) - 1)
     return arrow + "".join(drawing.text((x + end) / 2, first + LINE * at, line, SIZE) for at, line in enumerate(lines))

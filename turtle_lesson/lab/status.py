@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import style
-from .picture import Picture
+from . import drawing
+from .drawing import Picture
 from .recording import STATUS_TOPIC, Recording
 from .words import angle, count, number, point, rate
 
@@ -29,7 +29,7 @@ def plot_status(recording: Recording, *, since: float | None = None, until: floa
     if not len(rows):
         return Picture(f"No status in these seconds: statuses were heard from {recording.span(recording.statuses)}.")
     seconds = recording.seconds(rows["stamp"])
-    with style.applied():
+    with drawing.applied():
         figure = _draw(seconds, rows)
     return Picture(_describe(seconds, rows), figure)
 
@@ -50,28 +50,28 @@ def _describe(seconds: np.ndarray, rows: np.ndarray) -> str:
 
 
 def _draw(seconds: np.ndarray, rows: np.ndarray) -> Figure:
-    figure = style.card(6.4, 5.05)
+    figure = drawing.card(6.4, 5.05)
     last = rows[-1]
     place = f"{point(last['x'], last['y'])} m, {number(math.degrees(last['theta']), 0)}°"
     now = f"at {number(seconds[-1], 1)} s: {place}, battery {number(last['battery'], 1)} %"
-    style.heading(figure, "Status of the robot", f"{count(len(rows), 'message')} on {STATUS_TOPIC}  ·  {now}")
+    drawing.heading(figure, "Status of the robot", f"{count(len(rows), 'message')} on {STATUS_TOPIC}  ·  {now}")
     panels: list[Axes] = []
     for row in range(4):
         shared = panels[0] if panels else None
-        panel = style.axes_at(figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=shared)
+        panel = drawing.axes_at(figure, 0.95, 3.56 - 1.02 * row, 4.75, 0.82, sharex=shared)
         panel.tick_params(labelbottom=row == 3)
         panels.append(panel)
     panels[0].set_ylabel("position\nin m")
-    _lines(panels[0], seconds, {"x": (rows["x"], style.BLUE), "y": (rows["y"], style.VERMILLION)}, least=1.0)
+    _lines(panels[0], seconds, {"x": (rows["x"], drawing.BLUE), "y": (rows["y"], drawing.VERMILLION)}, least=1.0)
     _draw_heading(panels[1], seconds, rows["theta"])
     panels[2].set_ylabel("velocity\nin m/s")
     speed = np.hypot(rows["vel_x"], rows["vel_y"])
-    panels[2].fill_between(seconds, 0, speed, color=style.LINE, linewidth=0)
-    along = {"x": (rows["vel_x"], style.BLUE), "y": (rows["vel_y"], style.VERMILLION)}
-    _lines(panels[2], seconds, {**along, "speed": (speed, style.INK)}, least=0.2)
+    panels[2].fill_between(seconds, 0, speed, color=drawing.LINE, linewidth=0)
+    along = {"x": (rows["vel_x"], drawing.BLUE), "y": (rows["vel_y"], drawing.VERMILLION)}
+    _lines(panels[2], seconds, {**along, "speed": (speed, drawing.INK)}, least=0.2)
     panels[3].set(ylabel="battery\nin %", ylim=(0, 108), yticks=[0, 50, 100], xlabel="robot time in seconds")
-    panels[3].fill_between(seconds, 0, rows["battery"], color=style.GREEN + "30", linewidth=0)
-    panels[3].plot(seconds, rows["battery"], color=style.GREEN, linewidth=1.8)
+    panels[3].fill_between(seconds, 0, rows["battery"], color=drawing.GREEN + "30", linewidth=0)
+    panels[3].plot(seconds, rows["battery"], color=drawing.GREEN, linewidth=1.8)
     begin, end = float(seconds[0]), float(seconds[-1])  # the axis is a little wider than the data, and begins at 0 if
     spare = 0.01 * (end - begin) or 0.5  # they start close to it
     panels[3].set_xlim(0.0 if 0 <= begin < 5 * spare else begin - spare, end + spare)
@@ -83,7 +83,7 @@ def _draw_heading(panel: Axes, seconds: np.ndarray, theta: np.ndarray) -> None:
     """Radians on the left, the same in degrees on the right; no line across the jump from pi to minus pi."""
     panel.set_ylabel("heading\nin rad")
     broken = np.where(np.abs(np.diff(theta, prepend=theta[:1])) > math.pi, np.nan, theta)
-    panel.plot(seconds, broken, color=style.PURPLE, linewidth=1.8)
+    panel.plot(seconds, broken, color=drawing.PURPLE, linewidth=1.8)
     panel.set_ylim(-math.pi * 1.12, math.pi * 1.12)
     panel.set_yticks([-math.pi, 0, math.pi], ["−π", "0", "π"])
     panel.set_yticks([-math.pi / 2, math.pi / 2], minor=True)

@@ -11,11 +11,11 @@ import numpy as np
 
 from ..ros.idl.names import is_hidden
 from ..ros.rmw.trace import TOPICS
-from . import style
+from . import drawing
+from .drawing import Picture
 from .graph import EVERYWHERE, PARAMETER_SERVICES, node_names
-from .picture import Picture
 from .recording import NANOSECONDS, nanoseconds
-from .words import count, listed, number, rate
+from .words import count, listed, number, rate, shortened
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,24 +33,17 @@ LANE, TOP, BOTTOM = 0.40, 0.70, 0.78
 MOST = 24
 """A picture with more lanes than that cannot be read."""
 
-HOLDS: dict[str, Any] = {"facecolor": style.GREEN, "edgecolor": style.DARK_GREEN}
-AWAITS: dict[str, Any] = {"facecolor": style.ORANGE + "40", "edgecolor": style.DARK_ORANGE, "hatch": "////"}
+HOLDS: dict[str, Any] = {"facecolor": drawing.GREEN, "edgecolor": drawing.DARK_GREEN}
+AWAITS: dict[str, Any] = {"facecolor": drawing.ORANGE + "40", "edgecolor": drawing.DARK_ORANGE, "hatch": "////"}
 """The bars of a callback that holds its thread, and of one that leaves it to others."""
 
 
 def plot_timeline(
     trace: Trace, node: Node, *rows: str, since: float | None = None, until: float | None = None
 ) -> Picture:
-    """Return what happened from `since` to `until` (s since the lesson's start), in a lane for each topic and callback.
+    """What `Lesson.plot_timeline` returns; `node` is an rclpy Node that sees the graph.
 
-    Args:
-        trace: the world's trace.
-        node: an rclpy Node that sees the graph.
-        rows: names of topics ("/robot/status"), of nodes ("/navigator": all its callbacks) or of single callbacks
-            ("/navigator.on_pose"); without any, the callbacks of all nodes.
-        since, until: what to show; from the start until now unless told.
-
-    Raises TypeError or ValueError for what is neither, with the names that are perhaps meant.
+    Raises TypeError or ValueError for what is neither a topic nor a node, with the names that are perhaps meant.
     """
     window = window_of(trace.now, since, until)
     topics = [name for name, _ in node.get_topic_names_and_types()]
@@ -62,18 +55,18 @@ def plot_timeline(
     text = f"Timeline from {window.seconds}. {' '.join(lane.text for lane in lanes)}"
     if len(lanes) > MOST:
         return Picture(f"{text} These are {len(lanes)} rows, too many for a picture: name some, at most {MOST}.")
-    with style.applied():
+    with drawing.applied():
         return Picture(text, _draw(lanes, window))
 
 
 def _draw(lanes: list[Lane], window: Window) -> Figure:
     height = TOP + LANE * len(lanes) + BOTTOM
-    figure = style.card(WIDTH, height)
+    figure = drawing.card(WIDTH, height)
     callbacks = sum(lane.callback for lane in lanes)
     parts = [count(len(lanes) - callbacks, "topic"), count(callbacks, "callback")]
     shown = [part for part in parts if not part.startswith("no ")]
-    style.heading(figure, "Timeline", f"{window.seconds}  ·  {', '.join(shown)}")
-    axes = style.axes_at(figure, LEFT, BOTTOM, WIDTH - LEFT - RIGHT, LANE * len(lanes))
+    drawing.heading(figure, "Timeline", f"{window.seconds}  ·  {', '.join(shown)}")
+    axes = drawing.axes_at(figure, LEFT, BOTTOM, WIDTH - LEFT - RIGHT, LANE * len(lanes))
     axes.set_ylim(len(lanes) - 0.5, -0.5)
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
@@ -84,24 +77,29 @@ def _draw(lanes: list[Lane], window: Window) -> Figure:
         _draw_lane(axes, place, lane)
         middle = 1 - (TOP + LANE * (place + 0.5)) / height
         left, line = 0.2 / WIDTH, 0.075 / height
-        figure.text(left, middle + line, _cut(lane.name, 26), fontsize=8.8, va="center")
-        figure.text(left, middle - line, _cut(lane.about, 30), fontsize=7.4, color=style.INK, va="center")
+        figure.text(left, middle + line, shortened(lane.name, 26), fontsize=8.8, va="center")
+        figure.text(left, middle - line, shortened(lane.about, 30), fontsize=7.4, color=drawing.INK, va="center")
     _legend(figure, lanes)
     return figure
 
 
 def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
-    axes.axhline(place, color=style.LINE, linewidth=0.8, zorder=0.5)
+    axes.axhline(place, color=drawing.LINE, linewidth=0.8, zorder=0.5)
     for begin, end in lane.waits / NANOSECONDS:  # beneath the bars, for it may be another run that lasts meanwhile
-        line: dict[str, Any] = {"color": style.VERMILLION, "linewidth": 1.6, "linestyle": (0, (1.2, 1.2)), "zorder": 2}
+        line: dict[str, Any] = {
+            "color": drawing.VERMILLION,
+            "linewidth": 1.6,
+            "linestyle": (0, (1.2, 1.2)),
+            "zorder": 2,
+        }
         axes.plot([begin, end], [place + 0.37] * 2, **line)
-        axes.plot([begin], [place + 0.37], color=style.VERMILLION, marker="o", markersize=3.0, zorder=2)
+        axes.plot([begin], [place + 0.37], color=drawing.VERMILLION, marker="o", markersize=3.0, zorder=2)
     if len(lane.bars):
         spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
         look = AWAITS if lane.awaits else HOLDS
         axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, **look)
     if len(lane.marks):
-        colour = style.GREEN if lane.callback else style.BLUE
+        colour = drawing.GREEN if lane.callback else drawing.BLUE
         marks = lane.marks / NANOSECONDS
         axes.vlines(marks, place - 0.27, place + 0.27, color=colour, linewidth=_mark_width(axes, marks), zorder=3)
 
@@ -115,10 +113,6 @@ def _mark_width(axes: Axes, marks: np.ndarray) -> float:
     return min(1.5, max(0.3, 0.5 * gap))
 
 
-def _cut(text: str, most: int) -> str:
-    return text if len(text) <= most else f"{text[: most - 1]}…"
-
-
 def _legend(figure: Figure, lanes: list[Lane]) -> None:
     """What the signs mean, of those that are there, beneath the axes."""
     from matplotlib.lines import Line2D
@@ -129,17 +123,17 @@ def _legend(figure: Figure, lanes: list[Lane]) -> None:
     signs: list[tuple[bool, Any]] = [
         (
             any(len(lane.marks) for lane in lanes if not lane.callback),
-            Line2D([], [], color=style.BLUE, label="a message", **tick),
+            Line2D([], [], color=drawing.BLUE, label="a message", **tick),
         ),
         (
             any(len(lane.marks) for lane in lanes if lane.callback),
-            Line2D([], [], color=style.GREEN, label="a short call", **tick),
+            Line2D([], [], color=drawing.GREEN, label="a short call", **tick),
         ),
         (any(len(lane.bars) for lane in lanes if not lane.awaits), Patch(**HOLDS, label="holds its thread")),
         (any(len(lane.bars) for lane in lanes if lane.awaits), Patch(**AWAITS, label="awaits, thread free")),
         (
             any(len(lane.waits) for lane in lanes),
-            Line2D([], [], color=style.VERMILLION, label="ready, had to wait", **wait),
+            Line2D([], [], color=drawing.VERMILLION, label="ready, had to wait", **wait),
         ),
     ]
     if shown := [sign for is_there, sign in signs if is_there]:

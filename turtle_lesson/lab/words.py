@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..ros.idl.names import nearest
 
@@ -81,3 +81,13 @@ def enumerated(names: Iterable[str]) -> str:
     known = list(names)
     more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
     return (", ".join(known[:LISTED]) or "none") + more
+
+
+def shortened(text: str, most: int) -> str:
+    """The text, or as much of it as fits into so many characters, the last of which is an ellipsis."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values are equal; not-a-number counts as equal to itself."""
+    return bool(one == other or (one != one and other != other))

@@ -17,10 +17,10 @@ from ..ros.runtime.files import CellOutput
 from ..ros.runtime.world import World, open_world, set_player, wall_time
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
-from .inspection import Inspection
 from .live import Player, SimBackend
 from .packages import SIMULATOR, install, package_folder, underlay_packages
 from .robot import real_ros
+from .views import Inspection
 
 if TYPE_CHECKING:
     from ..lab.recorder import ObstacleBoard, Recorder
@@ -115,10 +115,11 @@ def _built(seed: int, distro: str | None, mine: Workspace) -> Workspace:
     return mine
 
 
-def _check_seconds(verb: str, seconds: object) -> None:
+def check_seconds(call: str, seconds: object) -> None:
+    """Raise ValueError unless this is a number of seconds that a call such as "lesson.run" can take."""
     if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 <= seconds <= LONGEST_RUN:
         raise ValueError(
-            f"seconds must be a number of seconds from 0 to {LONGEST_RUN:.0e}, got {seconds!r}: try lesson.{verb}(5)"
+            f"seconds must be a number of seconds from 0 to {LONGEST_RUN:.0e}, got {seconds!r}: try {call}(5)"
         )
 
 
@@ -154,7 +155,7 @@ class Lesson(Inspection):
         `input` holds lines for the programs that call `input()`, in the order in which they ask; when there is none left,
         the cell itself asks. An interrupt (the stop button) pauses the world; the next run goes on from there.
         """
-        _check_seconds("run", seconds)
+        check_seconds("lesson.run", seconds)
         lines = input.splitlines() if isinstance(input, str) else list(input)
         if not all(isinstance(line, str) for line in lines):
             raise TypeError(f'input must be lines of text, got {lines!r}: try lesson.run(5, input=["3", "yes"])')
@@ -167,7 +168,7 @@ class Lesson(Inspection):
         A key is one character, or a name such as "up", "space", "enter", "esc" or "ctrl+c". Of several programs, the one
         that began last gets them. Raises ValueError if there is no such key, RuntimeError if no program reads keys.
         """
-        _check_seconds("press", every)
+        check_seconds("lesson.press", every)
         keyboard = self._world.sim.keyboard
         keyboard.has_keys = True
         for key in [key_named(key) for key in keys]:
@@ -190,7 +191,7 @@ class Lesson(Inspection):
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.task import Future
 
-        _check_seconds("spin", seconds)
+        check_seconds("lesson.spin", seconds)
         context = self._world.notebook.state(RclpyState).context
         if context is None or not context.ok():
             self.run(seconds)  # no node lives in a cell

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ..learner.story import FINISHED, HERE
-from ..ros.ament.package import Package, Target
+from ..ros.ament.package import Package
 from ..ros.ament.source import make_importable, read_source_package
 from ..ros.idl.registry import registry
 from ..ros.runtime.world import World
@@ -19,14 +19,8 @@ SIMULATOR: Callable[[], object] = program("turtle_lesson.turtlesim.node")
 
 def underlay_packages() -> list[Package]:
     """The packages of a fresh ROS 2 whose programs `ros2 run` and launch files find: turtlesim, tf2, demos, xacro."""
-    names = {
-        "draw_square": ("tutorials", "draw_square"),
-        "mimic": ("tutorials", "mimic"),
-        "turtle_teleop_key": ("teleop_turtle_key", "main"),
-    }
-    programs: dict[str, Target] = {
-        name: program(f"turtle_lesson.turtlesim.{module}", function) for name, (module, function) in names.items()
-    }
+    names = ("draw_square", "mimic", "turtle_teleop_key")
+    programs = {name: program("turtle_lesson.turtlesim.tutorials", name) for name in names}
     turtlesim = Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": SIMULATOR, **programs})
     packages = [turtlesim, *tf2_packages(), *demo_packages()]
     xacro = find_spec("xacro")  # a package of PyPI, which may be installed

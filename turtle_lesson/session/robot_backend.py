@@ -139,13 +139,12 @@ Action = Callable[..., object]
 Hop = Callable[..., object]
 """Called with an action and its arguments, has the loop call that action."""
 
-LISTS = (
-    *("get_node_names_and_namespaces", "get_topic_names_and_types", "get_service_names_and_types"),
-    *("get_publishers_info_by_topic", "get_subscriptions_info_by_topic", "get_publisher_names_and_types_by_node"),
-    *("get_subscriber_names_and_types_by_node", "get_service_names_and_types_by_node"),
-    "get_client_names_and_types_by_node",
-)
-COUNTS = ("count_publishers", "count_subscribers")
+LISTS = [
+    name
+    for name in dir(Node)
+    if name.startswith("get_") and name.endswith(("_and_namespaces", "_and_types", "_by_topic", "_by_node"))
+]
+COUNTS = [name for name in dir(Node) if name.startswith("count_")]
 """What a node can be asked of the graph."""
 
 TELLS_TIMES = hasattr(Subscription, "CallbackType")

@@ -106,38 +106,31 @@ class _Stopped:
 
 @contextmanager
 def _connected(address: str) -> Iterator[Any]:
-    try:
-        from distributed import Client
-    except ImportError:
-        raise PageError("--client needs Dask: pip install 'turtle-lesson[cluster]'") from None
+    """A client of the cluster. What experiments say of a cluster that cannot be used is raised as PageError."""
+    from ..experiments.cluster import connected
+    from ..experiments.one_run import ExperimentError
+
     for name in ("distributed", "distributed.client"):  # what goes wrong is said in the reports
         logging.getLogger(name).setLevel(logging.CRITICAL)
+    client = None
     try:
-        client = Client(address, timeout=CONNECTING)
-    except ValueError as error:
-        raise PageError(
-            f"{address} is not the address of a Dask scheduler, such as tcp://10.0.0.1:8786: {error}"
-        ) from None
-    except OSError:
-        raise PageError(f"no Dask scheduler answers at {address}") from None
-    try:
-        yield client
+        client, _ = connected(address, CONNECTING)
+        with client.as_current():  # where events and variables look for it
+            yield client
+    except ExperimentError as error:
+        raise PageError(str(error)) from None
     finally:
-        with suppress(Exception):  # a scheduler that is gone
-            client.close(timeout=CONNECTING)
+        with suppress(Exception):  # there is none, or its scheduler is gone
+            client.close(timeout=CONNECTING)  # type: ignore[union-attr]
 
 
 def _check_workers(client: Any, lesson: str) -> None:
     """Raise PageError unless there are workers, all with this lesson."""
-    from distributed import TimeoutError as NoneCame
+    from ..experiments.cluster import answers
 
-    try:
-        client.wait_for_workers(1, timeout=CONNECTING)
-    except NoneCame:
-        raise PageError("the Dask cluster has no workers") from None
+    found_there = answers(client, lambda: import_module(HERE).own_lesson(), CONNECTING)
     own, wrong = own_lesson()[0], []
-    answers = client.run(lambda: import_module(HERE).own_lesson(), on_error="return")
-    for worker, found in sorted(answers.items()):
+    for worker, found in sorted(found_there.items()):
         if isinstance(found, Exception) and "No module named 'turtle_lesson" not in str(found):
             wrong.append(f"{worker} answers: {found}")
         elif isinstance(found, Exception):

@@ -11,7 +11,7 @@ import re
 import zipfile
 import zlib
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import takewhile
@@ -56,7 +56,8 @@ class Copy:
 
     def _content(self) -> bytes:
         if self.member:
-            with zipfile.ZipFile(_archive(self)) as archive, archive.open(self.member) as file:
+            archive_path = self.path.parents[len(Path(self.member).parts) - 1]
+            with zipfile.ZipFile(archive_path) as archive, archive.open(self.member) as file:
                 found = file.read(LARGEST + 1)
         else:
             with self.path.open("rb") as file:
@@ -64,10 +65,6 @@ class Copy:
         if len(found) > LARGEST:
             raise PageError(f"is larger than {LARGEST // 1_000_000} MB")
         return found
-
-
-def _archive(copy: Copy) -> Path:
-    return copy.path.parents[len(Path(copy.member).parts) - 1]
 
 
 def find(paths: Iterable[Path]) -> list[Copy]:
@@ -79,7 +76,14 @@ def find(paths: Iterable[Path]) -> list[Copy]:
             inside = sorted(path.rglob("*.ipynb"))
             found |= dict.fromkeys((Copy(each) for each in inside if not _is_hidden(each.relative_to(path))), path)
         elif path.suffix.lower() == ".zip" and path.exists():
-            found |= dict.fromkeys(_in_archive(path), path)
+            try:
+                with zipfile.ZipFile(path) as archive:
+                    names = [name for name in sorted(archive.namelist()) if name.lower().endswith(".ipynb")]
+            except zipfile.BadZipFile:
+                raise PageError(f"{path} is not a zip file") from None
+            found |= dict.fromkeys(
+                (Copy(path / name, member=name) for name in names if not _is_hidden(Path(name))), path
+            )
         else:
             found[Copy(path)] = path
     copies = _named(found)
@@ -87,17 +91,6 @@ def find(paths: Iterable[Path]) -> list[Copy]:
     for number, copy in enumerate(copies):
         first.setdefault(copy.learner or str(copy.path), number)
     return sorted(copies, key=lambda copy: first[copy.learner or str(copy.path)])
-
-
-def _in_archive(path: Path) -> Iterator[Copy]:
-    try:
-        with zipfile.ZipFile(path) as archive:
-            names = sorted(archive.namelist())
-    except zipfile.BadZipFile:
-        raise PageError(f"{path} is not a zip file") from None
-    for name in names:
-        if name.lower().endswith(".ipynb") and not _is_hidden(Path(name)):
-            yield Copy(path / name, member=name)
 
 
 def _is_hidden(path: Path) -> bool:
@@ -130,7 +123,8 @@ def _owner(path: Path, root: Path) -> tuple[Path, str, str]:
         if found := MOODLE.fullmatch(part):
             return Path(*parts[:index]), found[1].strip(), found[2] or ""
     for index, part in enumerate(parts[:-3]):
-        if part == SUBMITTED and (index >= len(root.parts) - 1 or _is_course(Path(*parts[:index]))):
+        is_course = any(Path(*parts[:index], name).exists() for name in OF_A_COURSE)
+        if part == SUBMITTED and (index >= len(root.parts) - 1 or is_course):
             return Path(*parts[: index + 1]), parts[index + 1], ""
     for index, part in enumerate(parts[:-2]):
         assignment = part.removesuffix(CLONED)
@@ -140,10 +134,6 @@ def _owner(path: Path, root: Path) -> tuple[Path, str, str]:
         if (clone / ".git").exists() and (assignment := _assignment(clone.parent)):
             return clone.parent, clone.name.removeprefix(f"{assignment}-"), ""
     return path, "", ""
-
-
-def _is_course(folder: Path) -> bool:
-    return any((folder / name).exists() for name in OF_A_COURSE)
 
 
 @lru_cache(maxsize=64)

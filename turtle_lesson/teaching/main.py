@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import runpy
 import socket
 import subprocess
 import sys
@@ -12,11 +13,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..ros.runtime.files import OPENED
-from . import pages, report
+from ..ros.sim.errors import print_error
+from . import pages
 from .copies import find
-from .grade import Graded, grade
+from .grade import Graded, as_csv, as_json, as_junit, grade, in_a_line, in_words
 from .limits import MEMORY, PATIENCE, TIMEOUT
-from .report import as_csv, as_json, in_a_line, in_words
 
 JUPYTER = Path(__file__).resolve().parent / "jupyter"
 """Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""
@@ -100,10 +101,9 @@ def _parser() -> argparse.ArgumentParser:
     grading.add_argument("--timeout", type=seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
     how_much = f"memory that each process of a copy may take, where the system limits that (default: {MEMORY:g})"
     grading.add_argument("--memory", type=_number(float, 0.5, 1000, " GB"), default=MEMORY, metavar="GB", help=how_much)
-    jobs = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     place = grading.add_mutually_exclusive_group()
-    many = f"copies at once (default: one for each core, here {jobs})"
-    place.add_argument("--jobs", type=_number(int, 1, 256), default=jobs, metavar="N", help=many)
+    many = "copies at once (default: one for each core that may be used)"
+    place.add_argument("--jobs", type=_number(int, 1, 256), metavar="N", help=many)
     cluster = "run them on a Dask cluster instead; the address of its scheduler, such as tcp://10.0.0.1:8786"
     place.add_argument("--client", metavar="ADDRESS", help=cluster)
 
@@ -155,10 +155,12 @@ def _grade(options: argparse.Namespace) -> int:
     def tell(done: int, amount: int, copy: Graded) -> None:
         print(f"{done} of {amount}: {in_a_line(copy)}", file=sys.stderr, flush=True)
 
+    from ..experiments.pools import cores
+
     os.environ["TURTLE_LESSON_CACHE"] = "off"  # a copy runs with the teacher's rights, and could have written into it
-    graded = grade(copies, options.timeout, options.jobs, tell, options.memory, options.client)
+    graded = grade(copies, options.timeout, options.jobs or cores(), tell, options.memory, options.client)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
-    for file, text in ((options.junit, report.report), (options.csv, as_csv)):
+    for file, text in ((options.junit, as_junit), (options.csv, as_csv)):
         if file is not None:
             try:
                 file.write_text(text(graded), encoding="utf-8")
@@ -239,12 +241,45 @@ def _reset(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from ..experiments.script import run_script
+    """Run a script that calls `experiment(…)`. 0 if all runs of its experiments ended well, or else 1."""
+    from ..experiments import ExperimentError, Results
+    from ..experiments.experiment import Defaults, defaults
+    from ..experiments.table import check_suffix
 
+    script, table, seen = options.script, options.csv, list[Results]()
+
+    def finished(results: Results) -> None:
+        seen.append(results)
+        print(results, flush=True)
+        if table is not None:
+            path = table if len(seen) == 1 else table.with_stem(f"{table.stem}-{len(seen)}")
+            print(f"saved as {results.save(path)}", flush=True)
+
+    if not script.is_file():
+        raise pages.PageError(f"there is no script {script}")
+    token = defaults.set(Defaults(options.jobs, finished))
+    arguments, folders = sys.argv, sys.path[:]
+    ended_well = False
     try:
-        return run_script(options.script, options.jobs, options.csv)
-    except ValueError as error:
-        raise pages.PageError(str(error)) from None
+        if table is not None:
+            check_suffix(table)
+        sys.argv, sys.path[0:1] = [str(script)], [str(script.resolve().parent)]
+        runpy.run_path(str(script), run_name="__main__")
+        ended_well = True
+    except ExperimentError as error:
+        print(f"turtle-lesson run: {error}", file=sys.stderr)
+    except SystemExit as error:
+        ended_well = error.code in (None, 0)
+        if isinstance(error.code, str):
+            print(error.code, file=sys.stderr)
+    except Exception as error:
+        print_error(error)
+    finally:
+        sys.argv, sys.path[:] = arguments, folders
+        defaults.reset(token)
+    if ended_well and not seen:
+        print(f"turtle-lesson run: {script} carries out no experiment", file=sys.stderr)
+    return 0 if ended_well and seen and not any(results.missing or len(results.failed) for results in seen) else 1
 
 
 def _student(options: argparse.Namespace) -> int:

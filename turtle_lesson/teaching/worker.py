@@ -49,10 +49,6 @@ ALONE = re.compile(r"^(\w+)\.check\(\s*[\"'](\w+)[\"']\s*\)\s*;?\s*(#.*)?$")
 NO_PYTHON = re.compile(r"^\s*%%(?!time\b|capture\b)")
 """The beginning of a cell that is not run as Python, or not at all."""
 
-BEFORE = "__import__('numpy')"
-"""What the kernel runs before the copy's cells: checking code needs numpy, which cannot be imported any more where cells have
-replaced built-in functions."""
-
 ASK = """
 import marshal, socket
 with socket.socket({family}) as line:
@@ -202,7 +198,8 @@ class Kernel:
         self._client = self._manager.blocking_client()
         self._client.start_channels(iopub=False, stdin=False, hb=False)
         self._reply(self._client.kernel_info())
-        self.run(BEFORE, silent=True)
+        # checking code needs numpy, which cannot be imported any more where cells have replaced built-in functions
+        self.run("__import__('numpy')", silent=True)
         return int(self._process.pid)
 
     def stop(self) -> None:

@@ -5,11 +5,10 @@ that cannot be part of a topic's name ends the real program, and is refused here
 """
 
 import re
+from itertools import count
 from typing import NamedTuple
 
-from turtle_lesson.turtlesim.canvas import Canvas
-
-from .turtle import HEIGHT, LARGEST, WIDTH, Turtle, TurtleError, float32
+from .turtle import HEIGHT, LARGEST, WIDTH, Canvas, Turtle, TurtleError, float32
 
 _NAME = re.compile(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
@@ -50,8 +49,18 @@ class TurtleWorld:
             raise TurtleError(
                 f"No turtle is spawned at x=[{x}], y=[{y}], theta=[{theta}]: each must be a finite number"
             )
-        name = name or self._next_name()
-        self._check_name(name)
+        if not name:
+            self._last_number = next(n for n in count(self._last_number + 1) if f"turtle{n}" not in self.turtles)
+            name = f"turtle{self._last_number}"
+        elif name in self.turtles:
+            raise TurtleError(f"A turtle named [{name}] already exists")
+        elif not _NAME.fullmatch(name):
+            usable = re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
+            usable = usable if usable and not usable[0].isdigit() else f"turtle_{usable}".rstrip("_")
+            raise TurtleError(
+                f"A turtle cannot be named [{name}]: its topic would be called [{name}/pose], and that name "
+                f"has only letters, digits and underscores, no digit first; try [{usable}]"
+            )
         x, y, theta = float32(x), float32(y), float32(theta)
         turtle = self.turtles[name] = Turtle(name, x, float32(HEIGHT - y), theta)
         return turtle
@@ -72,25 +81,3 @@ class TurtleWorld:
         self.canvas.clear()
         self._last_number = 0
         return self.spawn_in_the_middle()
-
-    def _next_name(self) -> str:
-        while True:
-            self._last_number += 1
-            name = f"turtle{self._last_number}"
-            if name not in self.turtles:
-                return name
-
-    def _check_name(self, name: str) -> None:
-        if name in self.turtles:
-            raise TurtleError(f"A turtle named [{name}] already exists")
-        if not _NAME.fullmatch(name):
-            raise TurtleError(
-                f"A turtle cannot be named [{name}]: its topic would be called [{name}/pose], and that name "
-                f"has only letters, digits and underscores, no digit first; try [{_usable(name)}]"
-            )
-
-
-def _usable(name: str) -> str:
-    """Return a name close to this one that a turtle can have."""
-    name = re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
-    return name if name and not name[0].isdigit() else f"turtle_{name}".rstrip("_")

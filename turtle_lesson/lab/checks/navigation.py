@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..words import angle, number, point, turned
+from .assertions import gaps_of, no_answer, told
 from .probe import Answer, Heard, Probe
 from .registry import expectation
 from .results import CannotLook, Seen, hinted
-from .streams import gaps_of, no_answer, told
 
 if TYPE_CHECKING:
     from robot_controller.srv import NavigateTo

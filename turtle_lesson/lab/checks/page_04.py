@@ -8,12 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..words import angle, count, number, turned
-from .assertions import no_errors, node, publishes, subscribes
+from .assertions import no_errors, node, publishes, rate, some, subscribes
 from .navigation import COMMANDS, POSE, POSE_TYPE, drive_round
 from .probe import Heard, Probe, field, remembered
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
-from .streams import rate, some
 
 PAGE = "04_status_monitor"
 STATUS, STATUS_TYPE = "/robot/status", "robot_controller/msg/TurtleStatus"

@@ -10,12 +10,11 @@ from typing import Any
 from ...turtlesim.obstacles import Circle
 from ..recording import WORLD
 from ..words import angle, count, number
-from .assertions import agrees, learner_function, no_errors, node, publishes, returns
+from .assertions import agrees, learner_function, messages, no_errors, node, publishes, rate, returns, some
 from .navigation import where
 from .probe import Heard, Probe, field, interface
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
-from .streams import messages, rate, some
 
 PAGE = "05_obstacle_detector"
 SCAN, SCAN_TYPE = "/obstacles", "sensor_msgs/msg/LaserScan"

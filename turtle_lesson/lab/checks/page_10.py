@@ -13,14 +13,13 @@ from typing import Any
 from ..recording import WORLD
 from ..words import count, listed, number, point
 from . import page_05
-from .assertions import learner_function, no_errors, publishes, subscribes
+from .assertions import judge_rate, learner_function, no_errors, publishes, relays, subscribes, told
 from .navigation import NEAR, Drive, Goal, Way, ask_for, away, drive, where
 from .page_04 import STATUS, STATUS_TYPE
 from .pages_06_07 import system_is_there
 from .probe import Heard, Probe, interface, remembered
 from .registry import Expectation, check, expectation
 from .results import Advice, CannotLook, Seen, hinted
-from .streams import judge_rate, relays, told
 
 PAGE = "10_test_and_validate"
 

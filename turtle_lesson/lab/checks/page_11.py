@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..words import listed, number
-from .assertions import no_errors, node, parameter, publishes, returns, subscribes
+from .assertions import gaps_of, no_errors, node, parameter, publishes, rate, returns, subscribes
 from .navigation import COMMAND_TYPE, COMMANDS
 from .page_04 import STATUS, STATUS_TYPE
 from .page_05 import SCAN, SCAN_TYPE
@@ -16,7 +16,6 @@ from .pages_06_07 import system_is_there
 from .probe import Probe, remembered
 from .registry import Expectation, check, expectation
 from .results import Advice, CannotLook, Seen, hinted
-from .streams import gaps_of, rate
 
 PAGE = "11_to_a_real_robot"
 
@@ -164,12 +163,6 @@ def _no_monitor(probe: Probe) -> Seen:
     return Seen(not there, "it runs" if there else "none does", "Begin with start(), and launch nothing.")
 
 
-def _played(probe: Probe) -> list[str]:
-    """The topics that a player publishes, but for those that each node has."""
-    own = {"/rosout", "/parameter_events", "/clock"}
-    return [topic for topic in probe.topics() if topic not in own and any(map(_is_player, probe.publishers(topic)))]
-
-
 def _is_player(end: tuple[str, str]) -> bool:
     return end[0].rpartition("/")[2].startswith("rosbag2_player")
 
@@ -183,7 +176,8 @@ def _from_a_bag(probe: Probe) -> Seen:
 
 
 def _nothing_else(probe: Probe) -> Seen:
-    topics = _played(probe)
+    own = {"/rosout", "/parameter_events", "/clock"}
+    topics = [each for each in probe.topics() if each not in own and any(map(_is_player, probe.publishers(each)))]
     if not topics:
         raise CannotLook("no bag is played")
     others = [topic for topic in topics if topic != STATUS]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import io
 import math
+import random
 import sys
 from collections.abc import Sequence
 from contextlib import nullcontext, redirect_stdout
@@ -72,7 +73,7 @@ def make_trip(probe: Probe, seed: int, **options: float) -> Trip:
     poses = probe.listen(POSE, POSE_TYPE)
     before = len(poses)
     returned, raised = None, None
-    _draw_from(seed)
+    random.seed(seed)  # as in each run of an experiment
     with redirect_stdout(io.StringIO()), probe.target.ending_programs():
         try:
             returned = function(cells["lesson"], **options)  # not by probe.call: like a cell, it runs the world itself
@@ -82,13 +83,6 @@ def make_trip(probe: Probe, seed: int, **options: float) -> Trip:
             raised = error
     times = [each.at for each in poses[before:] if is_moving(each.message)]
     return Trip(seed, returned, raised, times[-1] - times[0] if times else 0.0)
-
-
-def _draw_from(seed: int) -> None:
-    """Have chance begin anew in the notebook's cells, as it does in each run of an experiment."""
-    import random
-
-    random.seed(seed)
 
 
 @remembered
@@ -105,17 +99,14 @@ def _one(trip: Trip, late: bool) -> Trip:
     return trip
 
 
-def _is_right(trip: Trip) -> bool:
-    said = trip.returned.get("seconds") if isinstance(trip.returned, dict) else None
-    return isinstance(said, int | float) and abs(said - trip.moved) < 0.3
-
-
 def _returns_seconds(probe: Probe) -> Seen:
     trip = _quick(probe)
     if isinstance(trip.raised, (NameError, TypeError, AttributeError)):
         raise trip.raised
+    said = trip.returned.get("seconds") if isinstance(trip.returned, dict) else None
+    right = isinstance(said, int | float) and abs(said - trip.moved) < 0.3
     step = 'A good trip returns what trip returns: a dict with "seconds". Which of your conditions is false for it?'
-    return Seen(trip.raised is None and _is_right(trip), str(trip), hinted(step, 1))
+    return Seen(trip.raised is None and right, str(trip), hinted(step, 1))
 
 
 def _fails_late(probe: Probe) -> Seen:

@@ -12,12 +12,11 @@ import numpy as np
 
 from ..recording import NANOSECONDS
 from ..words import angle, count, number, point, turned
-from .assertions import no_errors, node, offers, publishes, subscribes
+from .assertions import answers, no_errors, node, offers, publishes, rate, relays, some, subscribes
 from .navigation import COMMANDS, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, away, drive_round, where
-from .probe import Heard, Probe, field, interface, remembered
+from .probe import Probe, field, interface, remembered
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen, hinted
-from .streams import answers, rate, relays, some
 
 WELCOME, TOPICS, SERVICES = "00_welcome", "01_publish_and_subscribe", "02_services_and_interfaces"
 
@@ -214,7 +213,13 @@ def _is_news(probe: Probe) -> Seen:
     xs = [each.message.x for each in poses[first_pose:]]
     if max(xs) - min(xs) < 0.1:
         raise CannotLook(f"the turtle does not move when {COMMANDS} says so")
-    pairs = [(float(field(each.message, "data")), _last_before(each, poses)) for each in reports[first_report:]]
+    pairs = [
+        (
+            float(field(said.message, "data")),
+            next(float(pose.message.x) for pose in reversed(poses) if pose.at <= said.at),
+        )
+        for said in reports[first_report:]
+    ]
     if not pairs:
         raise CannotLook(f"no message came on {REPORT} while the turtle drove")
     wrong = [(said, true) for said, true in pairs if not abs(said - true) <= 0.1]
@@ -225,10 +230,6 @@ def _is_news(probe: Probe) -> Seen:
         "Hint 1 under the exercise names the two callbacks.",
     )
     return Seen(not wrong, seen, advice)
-
-
-def _last_before(report: Heard, poses: list[Heard]) -> float:
-    return next(float(each.message.x) for each in reversed(poses) if each.at <= report.at)
 
 
 # -- 02: services and interfaces ------------------------------------------------------------------------------------------

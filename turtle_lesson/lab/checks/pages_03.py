@@ -8,12 +8,11 @@ from typing import Any
 
 from ..words import number, point, turned
 from . import navigation as nav
-from .assertions import learner_function, no_errors, node, offers, publishes, returns
+from .assertions import learner_function, no_answer, no_errors, node, offers, publishes, returns, told
 from .navigation import MIDDLE, NEAR, Goal, Way, ask_for, ask_soon_for, away, come_to_rest, drive, driven, put, where
 from .probe import Answer, Probe, remembered
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
-from .streams import no_answer, told
 
 PAGE, ARRIVAL = "03_navigator", "03b_answer_on_arrival"
 

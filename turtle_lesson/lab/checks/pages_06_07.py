@@ -8,7 +8,19 @@ from typing import Any
 
 from ..recording import WORLD
 from ..words import angle, listed, number, point, turned
-from .assertions import get_parameter, no_errors, node, parameter, publishes, set_parameter
+from .assertions import (
+    get_parameter,
+    no_answer,
+    no_errors,
+    node,
+    parameter,
+    publishes,
+    rate,
+    rate_follows,
+    set_parameter,
+    some,
+    told,
+)
 from .navigation import COMMAND_TYPE, COMMANDS, NAVIGATE, POSE, POSE_TYPE, ask_for, away, where
 from .page_04 import RUN, STATUS, STATUS_TYPE
 from .page_05 import SCAN, SCAN_TYPE
@@ -16,7 +28,6 @@ from .pages_03 import navigator_is_there
 from .probe import Probe, remembered
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
-from .streams import no_answer, rate, rate_follows, some, told
 
 PAGE, COMMAND_LINE = "06_parameters_and_launch", "07_command_line"
 MONITOR = "/status_monitor"
@@ -143,7 +154,12 @@ def side_by_side() -> list[Expectation]:
         *(publishes(f"/{side}{STATUS}", STATUS_TYPE, by=name) for side, name in monitors.items()),
         _no_node_publishes(STATUS),
         *(parameter(name, "publish_rate", SIDES[side]) for side, name in monitors.items()),
-        *(_comes_at(f"/{side}{STATUS}", hz) for side, hz in SIDES.items()),
+        *(
+            Expectation(
+                f"/{side}{STATUS} comes at {hz} Hz", rate(f"/{side}{STATUS}", STATUS_TYPE, hz, 0.1 / hz, 2.0).look
+            )
+            for side, hz in SIDES.items()
+        ),
         no_errors(),
     ]
 
@@ -163,10 +179,6 @@ def _no_node_publishes(probe: Probe, topic: str) -> Seen:
     seen = f"{listed(owners)} {'do' if len(owners) > 1 else 'does'}" if owners else "none does"
     step = f"{topic} is an absolute name, which a namespace does not change. What replaces a name at the start?"
     return Seen(not owners, seen, hinted(step, 2))
-
-
-def _comes_at(topic: str, hz: int) -> Expectation:
-    return Expectation(f"{topic} comes at {hz} Hz", rate(topic, STATUS_TYPE, hz, within=0.1 / hz, seconds=2.0).look)
 
 
 TWIN_POSE = "/turtle2/pose"

@@ -6,12 +6,11 @@ from typing import Any
 
 from ..troubles.cases import current_expectations, expectations_of
 from ..words import number, point
-from .assertions import get_parameter, no_errors, node, offers, publishes, set_parameter
+from .assertions import gaps_of, get_parameter, no_answer, no_errors, node, offers, publishes, rate, set_parameter, told
 from .navigation import NAVIGATE, NEAR, ask_for, away, where
 from .probe import Answer, Heard, Probe, remembered
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
-from .streams import gaps_of, no_answer, rate, told
 
 PAGE, LAB = "08_executors", "09_debugging_lab"
 WORK, HOME, REQUEST_TYPE = "/work", "/go_home", "std_srvs/srv/Trigger"

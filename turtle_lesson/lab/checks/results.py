@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...ros.sim import errors
 from ...ros.sim.errors import DriveTimeout, NeverReturns
-from ..words import count, number
+from ..words import count, number, shortened
 
 if TYPE_CHECKING:
     from ...ros.sim.strand import Strand
@@ -268,11 +268,6 @@ READ = Advice(direction="Read the error first, then the line above it: what has 
 
 Call = tuple[FrameType, int]
 """A frame, and the number of the line that it is in."""
-
-
-def shortened(text: str, most: int) -> str:
-    """The text, or as much of it as fits into so many characters, the last of which is an ellipsis."""
-    return text if len(text) <= most else f"{text[: most - 1]}…"
 
 
 def in_words(error: BaseException) -> str:

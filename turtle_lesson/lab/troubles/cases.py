@@ -5,14 +5,47 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
-from typing import Any
+from typing import Any, Protocol
 
 from ...ros.idl.names import nearest
 from ..checks.probe import Probe
 from ..checks.registry import Expectation, expectation
 from ..checks.results import CannotLook, CheckResult, Seen
 from . import faults
-from .faults import Environment, Fault, Trouble
+from .faults import Fault, Program
+
+
+@dataclass(frozen=True)
+class Trouble:
+    """A symptom and where it may come from.
+
+    Attributes:
+        name: by which `lesson.trouble(name=…)` asks for it.
+        report: what a user says.
+        hints: where to look first, then with what.
+        commands: those that show what is wrong, from outside.
+        choose: chooses a fault by chance.
+        expectations: what is so in a well system.
+    """
+
+    name: str
+    report: str
+    hints: tuple[str, str]
+    commands: tuple[str, ...]
+    choose: Callable[[Random], Fault]
+    expectations: Callable[[], list[Expectation]]
+
+
+class Environment(Protocol):
+    """The world that a trouble is put into; `session/trouble_environment.py` says what each method does."""
+
+    @property
+    def ended(self) -> bool: ...
+    def clear(self) -> None: ...
+    def start(self, programs: tuple[Program, ...]) -> None: ...
+    def stop_simulator(self) -> None: ...
+    def make_workspace(self, fault: str) -> None: ...
+
 
 # The troubles: four of the lesson, and bugs that were found in published teaching code.
 TROUBLES: dict[str, Trouble] = {
@@ -170,13 +203,7 @@ _current: tuple[Case, Environment] | None = None
 
 
 def open_case(environment: Environment, seed: int | None, name: str | None, check: Callable[[], CheckResult]) -> Case:
-    """Put a trouble into a world and return its case.
-
-    Args:
-        environment: the world.
-        seed: chooses the trouble, or, of a named one, the fault behind it.
-        name: the trouble's name.
-        check: looks at the system and says whether it is mended.
+    """What `Lesson.trouble` does in a world; `check` looks at the system and says whether it is mended.
 
     Raises ValueError for a name that does not exist, with the one that may be meant, and for a seed that is not a number.
     """

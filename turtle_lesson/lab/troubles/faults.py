@@ -1,15 +1,14 @@
-"""What a trouble is, the faults behind each symptom, one of which is chosen by chance, and what a well system shows."""
+"""The faults behind each symptom, one of which is chosen by chance, and what a well system shows."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
-from typing import Any, Protocol
+from typing import Any
 
-from ..checks.assertions import node, publishes, subscribes
+from ..checks.assertions import node, publishes, rate, subscribes
 from ..checks.navigation import (
     COMMANDS,
     LONGEST,
@@ -27,7 +26,6 @@ from ..checks.page_04 import STATUS, STATUS_TYPE
 from ..checks.probe import Probe, interface, remembered
 from ..checks.registry import Expectation, expectation
 from ..checks.results import CannotLook, Seen
-from ..checks.streams import rate
 from ..words import number, point
 
 
@@ -62,42 +60,6 @@ class Fault:
     programs: tuple[Program, ...] = ()
     simulator: bool = True
     workspace: str = ""
-
-
-@dataclass(frozen=True)
-class Trouble:
-    """A symptom and where it may come from.
-
-    Attributes:
-        name: by which `lesson.trouble(name=…)` asks for it.
-        report: what a user says.
-        hints: where to look first, then with what.
-        commands: those that show what is wrong, from outside.
-        choose: chooses a fault by chance.
-        expectations: what is so in a well system.
-    """
-
-    name: str
-    report: str
-    hints: tuple[str, str]
-    commands: tuple[str, ...]
-    choose: Callable[[Random], Fault]
-    expectations: Callable[[], list[Expectation]]
-
-
-class Environment(Protocol):
-    """The world that a trouble is put into; `session/trouble_environment.py` says what each method does."""
-
-    @property
-    def ended(self) -> bool: ...
-
-    def clear(self) -> None: ...
-
-    def start(self, programs: tuple[Program, ...]) -> None: ...
-
-    def stop_simulator(self) -> None: ...
-
-    def make_workspace(self, fault: str) -> None: ...
 
 
 DRAFT = "robot_draft"

@@ -11,10 +11,10 @@ import numpy as np
 import traitlets
 
 from ...ros.idl.names import is_hidden
-from .. import style
+from .. import drawing
+from ..drawing import SHARPNESS, Picture
 from ..graph import EVERYWHERE, node_names, servers
 from ..path import plot_path
-from ..picture import SHARPNESS, Picture
 from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..scan import Beams, read_beams
@@ -138,7 +138,6 @@ class Dashboard(GoalPad):
             self._add_lines(sorted(waiting, key=itemgetter(0)))
 
     def _text(self) -> str:
-        """Time, place, battery, the nearest thing, what is missing, and how many goals were sent."""
         scan = self.backend.recorder.last_scan
         lost = [light["name"] for light in look(self.backend.node) if light["state"] == "missing"]
         facts = [
@@ -150,7 +149,6 @@ class Dashboard(GoalPad):
         return f"Dashboard at {number(self.backend.now)} s of robot time: {'; '.join(facts)}."
 
     def _picture(self) -> Picture | None:
-        """Path, with the newest goal, and status side by side, as far as there is anything to draw."""
         kept = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.was_taken]
         recorder = self.backend.recorder
         cards = [plot_path(recorder, goal=kept[-1] if kept else None), plot_status(recorder)]
@@ -392,9 +390,9 @@ def _side_by_side(cards: list[np.ndarray]) -> Figure:
     from matplotlib.figure import Figure
 
     gap = 12 * SHARPNESS
-    sharp = style.DPI * SHARPNESS
+    sharp = drawing.DPI * SHARPNESS
     width, height = sum(card.shape[1] + gap for card in cards) - gap, max(map(len, cards))
-    figure = Figure((width / sharp, height / sharp), dpi=style.DPI, facecolor="none")
+    figure = Figure((width / sharp, height / sharp), dpi=drawing.DPI, facecolor="none")
     left = 0
     for card in cards:
         figure.figimage(card, left, height - len(card), origin="upper")

@@ -9,11 +9,9 @@ import traitlets
 
 from ...ros.idl.names import is_hidden
 from ..words import count, did_you_mean, enumerated, listed
-from .backend import Backend
-from .form_fields import Group, Rows, Single, find_part
-from .lazy_endpoints import LazyClient, LazyPublisher, let_time_go_on
+from .backend import Backend, LazyClient, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
-from .message_types import find_class
+from .message_fields import Group, Rows, Single, find_class, find_part
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -212,7 +210,6 @@ class Form(LiveWidget):
             self.line = publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)
 
     def _text(self) -> str:
-        """What the form is for, and what it would send."""
         what = "messages on" if self.kind == "topic" else "requests to"
         wrong = listed([f"{path} ({words})" for path, words in self.errors.items()])
         now = f"to correct first: {wrong}" if self.errors else self.line

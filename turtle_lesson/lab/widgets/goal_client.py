@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
 from ...ros.stdlib.clocks import real_monotonic
-from .backend import Backend
-from .lazy_endpoints import DISCOVERY, ServerWatcher
+from ..graph import owner, servers
+from .backend import DISCOVERY, Backend
+
+if TYPE_CHECKING:
+    from rclpy.subscription import Subscription
 
 SERVICE = "/navigate_to"
 AT_ONCE = 0.5
 """An answer within so much robot time, s, that tells of no driving, is a refusal."""
+
+WARNING = 30
+"""rcl_interfaces/msg/Log: this level and those above it."""
+
+SLACK = 0.1
+"""Robot time, s, by which a warning may be older than its call, or newer than the answer to it."""
 
 WAITING = ("looking for the navigator", "on its way")
 
@@ -147,18 +157,16 @@ class GoalClient:
             self._found_by = now + (DISCOVERY if self._backend.clock is None else 0)
         if not self._client.service_is_ready():
             if now >= self._found_by:
-                self._finish(goal, "not sent", f"No node answers {SERVICE}. {self._how_to_start()}")
+                by_hand = "ros2 run robot_controller navigator"
+                how = f'Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") or {by_hand} &'
+                if self._backend.clock is None:
+                    how = f"Start the navigator in a terminal: {by_hand}"
+                self._finish(goal, "not sent", f"No node answers {SERVICE}. {how}")
             return
         goal.state = "on its way"
         self._asked[goal.number] = future = self._client.call_async(request)
         self.server.listen()  # after the request, which need not wait for it: nothing is heard within this turn of the loop
         future.add_done_callback(partial(self._answered, goal))
-
-    def _how_to_start(self) -> str:
-        by_hand = "ros2 run robot_controller navigator"
-        if self._backend.clock is None:
-            return f"Start the navigator in a terminal: {by_hand}"
-        return f'Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") or {by_hand} &'
 
     def _answered(self, goal: Goal, future: Any) -> None:
         if self._asked.pop(goal.number, None) is None:
@@ -195,3 +203,64 @@ class GoalClient:
     def _leave_if_done(self) -> None:
         if not self._wanted and not any(goal.waits for goal in self.goals):
             self.close()
+
+
+class ServerWatcher:
+    """Watches the node that offers one service: whether it is still there, and its warnings; `said()` is called at each."""
+
+    def __init__(self, backend: Backend, service: str, said: Callable[[], None]) -> None:
+        self._backend, self._service, self._said = backend, service, said
+        self._subscription: Subscription | None = None
+        self._names: list[str] = []
+        self._ends: set[tuple[int, ...]] = set()
+        self._warnings: deque[tuple[float, str]] = deque(maxlen=1000)
+
+    def listen(self) -> None:
+        """Notice which node offers the service now, and listen to its warnings."""
+        self._names = [name for name, _ in servers(self._backend.node, self._service)]
+        self._ends = self._rosout_ends()
+        if self._subscription is None:
+            from rcl_interfaces.msg import Log
+
+            self._subscription = self._backend.node.create_subscription(Log, "/rosout", self._hear, 1000)
+
+    def close(self) -> None:
+        """Listen no more."""
+        if self._subscription is not None:
+            self._backend.node.destroy_subscription(self._subscription)
+            self._subscription = None
+
+    def is_there(self) -> bool:
+        """Whether it is the one that was there when `listen` was called: started again, it has forgotten all calls."""
+        return bool(servers(self._backend.node, self._service)) and self._ends <= self._rosout_ends()
+
+    def why(self, called: float, answered: float, *, last: bool) -> str:
+        """What it warned of between a call and its answer (robot time, s), or "". A warning is given out once.
+
+        Of several, one about a goal is preferred; then the first, or the `last`.
+        """
+        found = [each for each in self._warnings if called - SLACK <= each[0] <= answered + SLACK]
+        found = [each for each in found if "goal" in each[1].lower()] or found
+        if not found:
+            return ""
+        chosen = found[-1 if last else 0]
+        self._warnings.remove(chosen)
+        # without "Goal refused:" in front, since the state says that already; with a capital and a full stop
+        head, colon, rest = chosen[1].partition(": ")
+        text = rest if colon and head.lower().startswith("goal") else chosen[1]
+        return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."
+
+    def _hear(self, message: Any) -> None:
+        names = [name.strip("/").replace("/", ".") for name in self._names]
+        if message.level >= WARNING and any(f"{message.name}.".startswith(f"{name}.") for name in names):
+            stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
+            self._warnings.append((self._backend.recorder.seconds(stamp), message.msg))
+            self._said()
+
+    def _rosout_ends(self) -> set[tuple[int, ...]]:
+        """What tells this very node from the next one of its name: the end with which it publishes its log."""
+        return {
+            tuple(end.endpoint_gid)
+            for end in self._backend.node.get_publishers_info_by_topic("/rosout")
+            if owner(end) in self._names
+        }

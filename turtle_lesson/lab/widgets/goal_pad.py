@@ -11,12 +11,11 @@ import numpy as np
 import traitlets
 
 from ...turtlesim.obstacles import WORLDS, Box, Circle
+from ..drawing import Picture
 from ..path import Trail, plot_path
-from ..picture import Picture
 from ..words import angle, count, listed, number, point
-from .backend import Backend
+from .backend import Backend, let_time_go_on
 from .goal_client import Goal, GoalClient
-from .lazy_endpoints import let_time_go_on
 from .live_widget import LiveWidget, pack
 
 SPACING, KEPT, TAIL = 0.05, 600, 60
@@ -128,12 +127,10 @@ class GoalPad(LiveWidget):
             self.earlier = max(0, len(self.desk.goals) - SHOWN)
 
     def _text(self) -> str:
-        """Where the turtle is, what became of the goals, and how many obstacles there are."""
         here = f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}."
         return f"{here} {self._goals_in_words()} {self._obstacles_in_words()}"
 
     def _picture(self) -> Picture | None:
-        """The map with the path so far."""
         goals = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.state in ("on its way", "reached")]
         return plot_path(self.backend.recorder, goal=goals[-1:] or None)
 
@@ -149,7 +146,9 @@ class GoalPad(LiveWidget):
         if pose != self._pose_shown:
             self._pose_shown = pose
             self.pose = pack(pose[1:] or [math.nan] * 4)
-        if (self.due("trail", TRAIL_RATE) or self._has_jumped(pose)) and self._trail.follow(recorder.poses):
+        # whether the turtle is so far from the trail that a line to it would be seen to be wrong
+        jumped = bool(pose and self._trail_end) and math.dist(pose[1:3], self._trail_end[1:3]) > JUMP
+        if (self.due("trail", TRAIL_RATE) or jumped) and self._trail.follow(recorder.poses):
             if self._trail.changes != self._changes:
                 self._changes = self._trail.changes
                 pieces = [np.concatenate([BREAK, piece]) for piece in self._trail.old]
@@ -161,10 +160,6 @@ class GoalPad(LiveWidget):
         if obstacles != self._obstacles_shown:
             self._obstacles_shown = obstacles
             self.obstacles = [as_state(each) for each in obstacles]
-
-    def _has_jumped(self, pose: tuple[float, ...]) -> bool:
-        """Whether the turtle is so far from the trail that a line to it would be seen to be wrong."""
-        return bool(pose and self._trail_end) and math.dist(pose[1:3], self._trail_end[1:3]) > JUMP
 
     def _show_scan(self) -> None:
         recorder = self.backend.recorder

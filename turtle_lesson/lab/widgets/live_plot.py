@@ -11,15 +11,15 @@ import numpy as np
 import traitlets
 
 from ...ros.idl.names import is_hidden, nearest
-from .. import style
-from ..picture import Picture
+from .. import drawing
+from ..drawing import Picture
 from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status import label_beside, spread
 from ..words import count, did_you_mean, enumerated, number
 from .backend import Backend
 from .live_widget import LiveWidget, pack
-from .message_types import find_class, kinds_of
+from .message_fields import find_class, kinds_of
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -303,7 +303,6 @@ class LivePlot(LiveWidget):
         return channel.why_silent() if channel is not None else "It no longer listens."
 
     def _text(self) -> str:
-        """Each curve in figures: how many messages, the last number, lowest and highest."""
         self._look()
         begin = f"Live plot of the last {self.seconds:g} s at {number(self.backend.now)} s of robot time."
         return " ".join([begin, *map(self._sentence, self._curves)])
@@ -317,7 +316,6 @@ class LivePlot(LiveWidget):
         return f"{curve.asked}: {count(len(times), 'message')}, last {figure(values[-1])}{span}."
 
     def _picture(self) -> Picture | None:
-        """The curves as they are now."""
         windows = [(curve.name, *self.window(curve)) for curve in self._curves]
         return draw(self.text(), windows, self.backend.now, self.seconds)
 
@@ -360,7 +358,16 @@ def _checked(node: Node, fields: Iterable[str]) -> list[str]:
 Window = tuple[str, np.ndarray, np.ndarray]
 """A curve's name, its times (s) and its numbers."""
 
-COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY, "#8a6fd0", style.INK)
+COLOURS = (
+    drawing.BLUE,
+    drawing.VERMILLION,
+    drawing.GREEN,
+    drawing.PURPLE,
+    drawing.ORANGE,
+    drawing.SKY,
+    "#8a6fd0",
+    drawing.INK,
+)
 DASHES: Sequence[Any] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (8, 2, 2, 2)), "-", (0, (6, 2)), (0, (2, 1.5)), "-")
 """Beside the colours, so that curves are told apart without them; the same as in the browser (live_plot.js)."""
 
@@ -372,11 +379,11 @@ def draw(text: str, windows: list[Window], now: float, seconds: float) -> Pictur
     """The curves over the last `seconds` before `now`; a text alone where there is nothing to draw."""
     if not any(np.isfinite(values).any() for _, _, values in windows):
         return Picture(text)
-    with style.applied():
-        figure = style.card(6.4, 3.4)
+    with drawing.applied():
+        figure = drawing.card(6.4, 3.4)
         begin = max(0.0, now - seconds) if now >= 0 else now - seconds
-        style.heading(figure, "Live plot", f"{number(begin, 1)} s to {number(now, 1)} s of robot time")
-        axes = style.axes_at(figure, 0.75, 0.5, 3.95, 2.2)
+        drawing.heading(figure, "Live plot", f"{number(begin, 1)} s to {number(now, 1)} s of robot time")
+        axes = drawing.axes_at(figure, 0.75, 0.5, 3.95, 2.2)
         axes.set_xlabel("robot time in seconds")
         for index, (_, times, values) in enumerate(windows):
             axes.plot(times, values, color=COLOURS[index], linestyle=DASHES[index], linewidth=1.8)

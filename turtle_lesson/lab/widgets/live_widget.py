@@ -15,7 +15,7 @@ from ipywidgets import CallbackDispatcher
 from numpy.typing import ArrayLike
 
 from ...ros.stdlib.clocks import real_monotonic
-from ..picture import Picture
+from ..drawing import Picture
 from .backend import Backend, Link, Message
 
 KEPT = 20

@@ -11,19 +11,9 @@ import traitlets
 from ...ros.idl.names import is_hidden
 from ..graph import node_names
 from ..words import count, did_you_mean, enumerated
-from .backend import Backend
-from .lazy_endpoints import DISCOVERY, in_a_moment
+from .backend import DISCOVERY, Backend, in_a_moment
 from .live_widget import LiveWidget
-from .message_types import (
-    BOOL,
-    DOUBLE,
-    INTEGER,
-    NOT_SET,
-    TYPES,
-    parameter_to_python,
-    read_parameter,
-    shown_parameter,
-)
+from .message_fields import read_float, read_integer
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -37,6 +27,20 @@ SERVICES = {
     "set": "SetParameters",
 }
 """What is asked of the node, and the type of each service in rcl_interfaces; its name is /node/<what>_parameters."""
+
+
+ARRAYS = ("byte array", "bool array", "integer array", "double array", "string array")
+TYPES = ("not set", "bool", "integer", "double", "string", *ARRAYS)
+"""By number of rcl_interfaces/msg/ParameterType."""
+
+NOT_SET, BOOL, INTEGER, DOUBLE, STRING, BYTES, BOOLS, INTEGERS, DOUBLES, STRINGS = range(10)
+ELEMENTS = {
+    BYTES: (int, "whole numbers"),
+    BOOLS: (bool, "true and false"),
+    INTEGERS: (int, "whole numbers"),
+    DOUBLES: (float, "numbers"),
+    STRINGS: (str, "texts"),
+}
 
 
 @dataclass(slots=True)
@@ -256,7 +260,6 @@ class ParametersPanel(LiveWidget):
         return "" if self._found else f"{self.node_name} has no parameters."
 
     def _text(self) -> str:
-        """All parameters with their values."""
         problem = self._why_nothing()
         if problem:
             return f"Parameters of {self.node_name}: {problem}"
@@ -298,3 +301,67 @@ def _look_up(node: Node, name: str) -> str:
     visible = sorted({each for each in names if not is_hidden(each)})
     hint = did_you_mean(full, visible) or f"The nodes: {enumerated(visible)}."
     raise ValueError(f'there is no node called "{name}" now. {hint}')
+
+
+# -- values --------------------------------------------------------------------------------------------------------------
+
+
+def parameter_to_python(value: Any) -> Any:
+    """What an rcl_interfaces/msg/ParameterValue holds, bytes as numbers; None if it is not set."""
+    from rclpy.parameter import parameter_value_to_python
+
+    found = parameter_value_to_python(value)
+    return [each[0] for each in found] if value.type == BYTES else found
+
+
+def shown_parameter(value: Any) -> str:
+    """A value as it stands in a field: YAML for arrays."""
+    if value is None:
+        return ""
+    if isinstance(value, list):
+        import yaml
+
+        return yaml.safe_dump(value, default_flow_style=True, width=float("inf"), allow_unicode=True).strip()
+    return value if isinstance(value, str) else repr(value)
+
+
+def read_parameter(typed: Any, kind: int, dynamic: bool = False) -> Any:
+    """An rcl_interfaces/msg/ParameterValue from what was typed. Raises ValueError, in words, for what it cannot be.
+
+    `kind` is the number of the type; a dynamically typed parameter, and one that is not set, takes what YAML makes of it.
+    """
+    from rclpy.parameter import Parameter, get_parameter_value
+
+    if dynamic or kind == NOT_SET:
+        return get_parameter_value(str(typed))
+    return Parameter("", Parameter.Type(kind), _converted(typed, kind)).get_parameter_value()
+
+
+def _converted(typed: Any, kind: int) -> Any:
+    """What was typed, as a parameter of this type holds it."""
+    if kind == BOOL and not isinstance(typed, bool):
+        raise ValueError(f"expected true or false, got {typed!r}")
+    if kind == BOOL:
+        return typed
+    if kind == INTEGER:
+        return read_integer(str(typed), "int64")
+    if kind == DOUBLE:
+        return read_float(str(typed), "double")
+    if kind == STRING:
+        return str(typed)
+    import yaml
+
+    from ...ros.runtime.bounded_yaml import safe_load
+
+    try:
+        value = safe_load(str(typed))
+    except yaml.YAMLError:
+        raise ValueError(f'"{typed}" is not valid YAML: lists are written [1, 2, 3]') from None
+    element, words = ELEMENTS[kind]
+    if not isinstance(value, list):
+        raise ValueError(f"a list of {words} is expected, such as [{'a, b' if element is str else '1, 2'}]")
+    made: list[Any] = [float(each) if element is float and type(each) is int else each for each in value]
+    for each in made:
+        if type(each) is not element:
+            raise ValueError(f"a list of {words} is expected, and {each!r} is none")
+    return [bytes([each]) for each in made] if kind == BYTES else made

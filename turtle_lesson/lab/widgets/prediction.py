@@ -66,5 +66,4 @@ class PredictionWidget(LiveWidget):
         )
 
     def _text(self) -> str:
-        """The question and the guess."""
         return repr(self._asked)

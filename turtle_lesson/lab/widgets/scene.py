@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import traitlets
 
-from .. import style
+from .. import drawing
+from ..drawing import Picture
 from ..path import Trail
-from ..picture import Picture
 from ..recording import WORLD
 from ..scan import read_beams
 from ..words import angle, count, listed, number, point
@@ -95,11 +95,9 @@ class Scene(LiveWidget):
         return replay_page(self, since, until)
 
     def _text(self) -> str:
-        """Where the turtle is, and what is around it."""
         return f"3-D scene: {describe(self.backend.recorder, self._current_goal())}"
 
     def _picture(self) -> Picture | None:
-        """The same scene drawn by matplotlib, from one side."""
         return draw_scene(self.backend.recorder, self._current_goal())
 
     def redraw(self) -> None:
@@ -151,9 +149,9 @@ def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
     pose = recording.pose()
     if pose is None:
         return Picture(text)
-    with style.applied():
-        figure = style.card(6.4, 4.7)
-        axes = style.axes_at(figure, 0.15, 0.15, 6.1, 4.0)
+    with drawing.applied():
+        figure = drawing.card(6.4, 4.7)
+        axes = drawing.axes_at(figure, 0.15, 0.15, 6.1, 4.0)
         axes.set(aspect="equal")
         axes.set_axis_off()
         _draw(axes, scene_mesh.floor(), layer=1, alpha=0.08)
@@ -163,7 +161,7 @@ def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
         _draw(axes, scene_mesh.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
         _draw_things(axes, recording, goal, pose)
         axes.autoscale_view(tight=True)
-        style.heading(figure, "The world in three dimensions", brief(recording, goal, beams=False).rstrip("."))
+        drawing.heading(figure, "The world in three dimensions", brief(recording, goal, beams=False).rstrip("."))
     return Picture(text, figure)
 
 
@@ -196,7 +194,10 @@ def _draw(axes: Axes, mesh: Mesh, layer: float, lit: bool = True, **look: Any) -
     colours = mesh.colours
     order = np.argsort(depth.mean(axis=1), kind="stable")
     if lit:
-        colours = colours * _brightness(mesh)
+        normals = np.cross(mesh.corners[:, 1] - mesh.corners[:, 0], mesh.corners[:, 2] - mesh.corners[:, 0])
+        lengths = np.linalg.norm(normals, axis=1)
+        facing = (normals @ LIGHT) / np.where(lengths > 0, lengths, 1.0)
+        colours = colours * (0.72 + 0.31 * np.maximum(facing, 0.0))[:, None]
         first, second = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
         order = order[(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] > 0)[order]]
     edges: Any = {"edgecolors": "face", "linewidths": 0.25} if "alpha" not in look else {"edgecolors": "none"}
@@ -210,14 +211,6 @@ def _seen(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     outward = x * math.cos(AROUND) + y * math.sin(AROUND)
     across = -x * math.sin(AROUND) + y * math.cos(AROUND)
     return across, -outward * math.sin(UP) + z * math.cos(UP), outward * math.cos(UP) + z * math.sin(UP)
-
-
-def _brightness(mesh: Mesh) -> np.ndarray:
-    """How bright each triangle is, by the light's direction: n by 1."""
-    normals = np.cross(mesh.corners[:, 1] - mesh.corners[:, 0], mesh.corners[:, 2] - mesh.corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    facing = (normals @ LIGHT) / np.where(lengths > 0, lengths, 1.0)
-    return (0.72 + 0.31 * np.maximum(facing, 0.0))[:, None]
 
 
 def brief(recorder: Recording, goal: Goal | None, beams: bool = True) -> str:

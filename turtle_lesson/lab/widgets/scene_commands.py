@@ -21,7 +21,7 @@ from ..recording import WORLD, Obstacle
 from ..scan import read_beams
 from . import scene_mesh
 from .goal_client import Goal
-from .scene_mesh import Mesh, placed, rgb
+from .scene_mesh import Mesh, placed
 
 # meshcat imports its server, which is never started here, and that a module of pyzmq that warns of its own age
 with defer_sigint(), warnings.catch_warnings():
@@ -244,4 +244,4 @@ def goal(current: Goal | None) -> list[bytes]:
 
 
 def _number(colour: str) -> int:
-    return sum(round(255 * part) << shift for part, shift in zip(rgb(colour), (16, 8, 0), strict=True))
+    return int(colour[1:], 16)

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import style
+from .. import drawing
 from ..drawing import BACK, BODY, HEAD, LEGS, OUTLINE, RIM, SHELL, SKIN, TAIL
 from ..path import TOLERANCE
 from ..recording import WORLD, Obstacle
@@ -325,7 +325,7 @@ def goal_mark(x: float, y: float, theta: float) -> Mesh:
     """On the floor, the ring within which a goal counts as reached, and a pointer for the heading."""
     inner, outer = (ring((0, 0, 0.018), radius, radius, 32) for radius in (TOLERANCE - 0.035, TOLERANCE))
     arrow = [(TOLERANCE + 0.05, -0.13, 0.018), (TOLERANCE + 0.3, 0, 0.018), (TOLERANCE + 0.05, 0.13, 0.018)]
-    return joined([loft([outer, inner], style.VERMILLION), polygon(arrow, style.VERMILLION)]).moved(
+    return joined([loft([outer, inner], drawing.VERMILLION), polygon(arrow, drawing.VERMILLION)]).moved(
         placed(x, y, 0.0, theta)
     )
 
@@ -345,4 +345,4 @@ def _pennant() -> Mesh:
     upper = np.column_stack([along, wave, 0.93 + drop])
     lower = np.column_stack([along, wave, 0.93 - drop])
     corners = [[lower[at], lower[at + 1], upper[at + 1], upper[at]] for at in range(len(along) - 1)]
-    return joined(polygon(each, style.VERMILLION) for each in corners)
+    return joined(polygon(each, drawing.VERMILLION) for each in corners)

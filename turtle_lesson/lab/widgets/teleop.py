@@ -10,8 +10,7 @@ import traitlets
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
-from .backend import Backend
-from .lazy_endpoints import LazyPublisher, let_time_go_on
+from .backend import Backend, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
 
 if TYPE_CHECKING:
@@ -147,7 +146,6 @@ class Teleop(LiveWidget):
         self.sent = {"linear": message.linear.x, "angular": message.angular.z, "count": self.sent["count"] + 1}
 
     def _text(self) -> str:
-        """Where it drives, how fast at most, and what it sent last."""
         most = f"at most {number(self.limits['forward'])} m/s and {number(self.limits['turn'])} rad/s"
         last = "nothing sent yet"
         if self.sent["count"]:

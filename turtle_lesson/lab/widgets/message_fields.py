@@ -1,22 +1,171 @@
-"""A message as a form has it: a tree of groups, rows and single fields, each with the text that stands in it."""
+"""Fields of messages: which ones a type has, of which kind, and which constants; and a message as a form has it.
+
+Everything is read from what the generated Python classes of any ROS 2 offer (`get_fields_and_field_types`, constants as
+attributes in capitals), so it works alike with the simulated ones and with the real ones.
+"""
 
 from __future__ import annotations
 
+import importlib
+import math
+import re
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from ...ros.idl.checks import FLOAT_BOUNDS
 from ...ros.idl.names import integer_bounds
-from .message_types import (
-    FLOATS,
-    WHOLE,
-    Kind,
-    constants_of,
-    find_class,
-    kinds_of,
-    plain,
-    read_float,
-    read_integer,
-)
+from ..words import same
+
+FLOATS = {"float", "double"}
+WHOLE = {"octet", "char"} | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
+"""How a .msg file calls what a Python class calls by its IDL name."""
+
+_SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>$")
+_FIXED = re.compile(r"(.+)\[(\d+)\]$")
+_BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>$")
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """The kind of a field: of what, how many, how long."""
+
+    base: str
+    """"double", "int32", "boolean", "octet", "string", …, or a message such as "geometry_msgs/Vector3"."""
+    array: str = ""
+    """"", "fixed" (exactly `size`), "bounded" (at most `size`) or "unbounded"."""
+    size: int = 0
+    longest: int = 0
+    """Most characters of a bounded string; 0 for any number."""
+
+    @property
+    def is_message(self) -> bool:
+        """Whether a value, or each element, has fields of its own."""
+        return "/" in self.base
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is one number, or true and false, that can be drawn as one."""
+        return not self.array and self.base in WHOLE | FLOATS | {"boolean"}
+
+    @property
+    def element(self) -> Kind:
+        """The kind of one element."""
+        return Kind(self.base, longest=self.longest)
+
+    def __str__(self) -> str:
+        """As a .msg file writes it: "float64[<=3]"."""
+        ends = {"": "", "fixed": f"[{self.size}]", "bounded": f"[<={self.size}]", "unbounded": "[]"}
+        return NAMES.get(self.base, self.base) + (f"<={self.longest}" if self.longest else "") + ends[self.array]
+
+
+def read_kind(text: str) -> Kind:
+    """The kind that `get_fields_and_field_types` calls `text`: "sequence<double, 3>", "uint8[4]", "string<10>", …"""
+    array, size = "", 0
+    if found := _SEQUENCE.match(text):
+        text, array, size = found[1], "bounded" if found[2] else "unbounded", int(found[2] or 0)
+    elif found := _FIXED.match(text):
+        text, array, size = found[1], "fixed", int(found[2])
+    if found := _BOUNDED_TEXT.match(text):
+        return Kind(found[1], array, size, int(found[2]))
+    return Kind(text, array, size)
+
+
+def kinds_of(message_class: Any) -> dict[str, Kind]:
+    """The fields of a message class, in the order of its file."""
+    kinds = {name: read_kind(text) for name, text in message_class.get_fields_and_field_types().items()}
+    # C++ allows no empty struct, so a message without fields has one that no file names
+    return {} if list(kinds) == ["structure_needs_at_least_one_member"] else kinds
+
+
+def constants_of(message_class: Any) -> dict[str, Any]:
+    """The constants that a message class defines, in the order of its file; of type byte as numbers."""
+    found: dict[str, Any] = {}
+    for name, value in vars(message_class).items():
+        if name.isupper() and name[0] != "_" and not name.endswith("__DEFAULT"):
+            if isinstance(value, bytes) and len(value) == 1:
+                value = value[0]
+            if isinstance(value, (bool, int, float, str)):
+                found[name] = value
+    return found
+
+
+def read_float(text: str, base: str) -> float:
+    """The number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
+    try:
+        value = float(text.strip().replace("−", "-"))
+    except ValueError:
+        raise ValueError(_no_number(text.strip(), "a number such as 1.5")) from None
+    if base == "float" and math.isfinite(value) and abs(value) > FLOAT_BOUNDS["float32"]:
+        raise ValueError("a float32 goes up to 3.4e38")
+    return value
+
+
+def read_integer(text: str, base: str) -> int:
+    """The whole number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
+    try:
+        value = int(text.strip().replace("−", "-"))
+    except ValueError:
+        raise ValueError(_no_number(text.strip(), "a whole number such as 3")) from None
+    low, high = integer_bounds(base)
+    if not low <= value <= high:
+        raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
+    return value
+
+
+def _no_number(text: str, wanted: str) -> str:
+    if not text:
+        return f"{wanted} is missing"
+    shown = text if len(text) <= 30 else f"{text[:30]}…"
+    return f'{wanted} is wanted, got "{shown}"' + (": write a point, not a comma" if "," in text else "")
+
+
+def find_class(type_name: str) -> Any:
+    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist", "turtlesim/srv/Spawn" or of an action's part.
+
+    Those behind an action, such as "turtlesim/action/RotateAbsolute_FeedbackMessage", are found in it.
+
+    Raises ValueError where it cannot be imported, with what to try.
+    """
+    package, _, rest = type_name.partition("/")
+    folder, _, name = rest.rpartition("/")
+    try:
+        if "_" in name and folder in ("", "action"):
+            action_name, _, part = name.partition("_")
+            action = getattr(importlib.import_module(f"{package}.action"), action_name)
+            if hasattr(action, part):  # X.Goal for "X_Goal"
+                return getattr(action, part)
+            # what carries it, such as X_FeedbackMessage or X_SendGoal, is in X.Impl
+            return getattr(action.Impl, part if hasattr(action.Impl, part) else f"{part}Service")
+        return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
+    except (ImportError, AttributeError):
+        raise ValueError(
+            f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
+            f"colcon build --packages-select {package}, then source install/setup.bash"
+        ) from None
+
+
+def plain(value: Any, kind: Kind | None = None) -> Any:
+    """A message, or a field's value, as YAML and JSON have it: dictionaries, lists, numbers, text.
+
+    A float32 is written with the digits that it has: 1.9, not 1.899999976158142.
+    """
+    if hasattr(value, "get_fields_and_field_types"):
+        return {name: plain(getattr(value, name), each) for name, each in kinds_of(value).items()}
+    if isinstance(value, float):
+        return float(str(np.float32(value))) if kind is not None and kind.base == "float" else value
+    if isinstance(value, (bool, int, str)):
+        return value
+    if isinstance(value, (bytes, bytearray)):
+        return value[0] if len(value) == 1 else list(value)
+    numbers = value.tolist() if hasattr(value, "tolist") else value  # numpy's arrays and those of the array module
+    return [plain(each, kind) for each in numbers]
+
+
+# -- a form: a tree of groups, rows and single fields, each with the text that stands in it -------------------------------
 
 MOST_ROWS = 64
 """More rows than this are no work for a form but for a program."""
@@ -90,7 +239,7 @@ class Single(Part):
 
     def changed(self) -> Any:
         value = self.value()
-        return None if _same(value, self.default) else value
+        return None if same(value, self.default) else value
 
     def set(self, text: Any) -> None:
         """Put a text into the field; true or false into a checkbox. Raises ValueError for anything else."""
@@ -130,7 +279,7 @@ class Group(Part):
         self,
         message_class: Any,
         name: str = "",
-        kind: Kind = Kind(""),  # noqa: B008
+        kind: Kind = Kind(""),
         message: Any = None,
         whole: Part | None = None,
     ) -> None:
@@ -220,7 +369,7 @@ class Rows(Part):
             values = [row.changed() or {} for row in self.parts]
             return values if len(values) != len(self.default) or any(values) else None
         values = self.value()
-        return None if _same(values, self.default) else values
+        return None if same(values, self.default) else values
 
     def state(self) -> dict[str, Any]:
         own = {"control": "rows", "full": self.why_full, "fixed": self.kind.array == "fixed"}
@@ -257,7 +406,3 @@ def _meant_for(field: str, kinds: dict[str, Kind], constants: dict[str, Any]) ->
         return own
     taken = [each for each in prefix.values() if any(constant.startswith(each) for constant in constants)]
     return {name: value for name, value in constants.items() if not name.startswith(tuple(taken))}
-
-
-def _same(one: Any, other: Any) -> bool:
-    return one == other or (one != one and other != other)  # not-a-number is none of the two, and no news
