@@ -228,7 +228,7 @@ TAIL = ((-0.33, 0.055), (-0.49, 0.0), (-0.33, -0.055))
 EYES = (0.455, 0.058, 0.021)
 
 
-def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.95, zorder: float = 5.0) -> None:
+def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.95) -> None:
     """Draw the turtle with its middle at (x, y), looking along `theta` (radians); units of the axes."""
     from matplotlib.patches import Circle, Ellipse, Polygon
     from matplotlib.transforms import Affine2D
@@ -236,7 +236,7 @@ def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.
     place = Affine2D().scale(length).rotate(theta).translate(x, y) + axes.transData
 
     def add(patch: Any, face: str, layer: int, edge: str = OUTLINE, line: float = 0.8) -> None:
-        patch.set(facecolor=face, edgecolor=edge, linewidth=line, transform=place, zorder=zorder + layer / 100)
+        patch.set(facecolor=face, edgecolor=edge, linewidth=line, transform=place, zorder=5 + layer / 100)
         axes.add_artist(patch)
 
     add(Polygon(TAIL, closed=True), SKIN, 0)
@@ -248,15 +248,15 @@ def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.
         add(Circle((EYES[0], side * EYES[1]), EYES[2]), OUTLINE, 3, line=0.0)
     add(_ellipse(Ellipse, BODY), RIM, 4)
     add(_ellipse(Ellipse, BACK), SHELL, 5, edge="none")
-    _draw_scutes(axes, place, zorder + 0.06)
+    _draw_scutes(axes, place, 5.06)
 
 
-def turtle_points(x: float, y: float, length: float = 0.95) -> np.ndarray:
+def turtle_points(x: float, y: float) -> np.ndarray:
     """Return points (n by 2) that a turtle covers, however it is turned."""
     import numpy as np
 
     turns = np.linspace(0, math.tau, 24, endpoint=False)
-    rings = [part * length / 2 * np.column_stack([np.cos(turns), np.sin(turns)]) for part in (0.4, 0.7, 1.0)]
+    rings = [part * 0.95 / 2 * np.column_stack([np.cos(turns), np.sin(turns)]) for part in (0.4, 0.7, 1.0)]
     return np.array([x, y]) + np.concatenate(rings)
 
 

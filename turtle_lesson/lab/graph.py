@@ -7,16 +7,13 @@ import re
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from statistics import fmean
-from typing import TYPE_CHECKING
+
+from rclpy.node import Node, NodeNameNonExistentError
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from ..ros.idl.names import is_hidden
 from . import drawing
 from .words import count, listed, number
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 EVERYWHERE = frozenset({"/rosout", "/parameter_events"})
 """Topics that every node has: they say nothing about how a system is built."""
@@ -46,8 +43,6 @@ class NodeView:
 
 def read_system(node: Node) -> list[NodeView]:
     """Return the visible nodes that `node` (an rclpy Node) sees in the graph, sorted by name."""
-    from rclpy.node import NodeNameNonExistentError
-
     found: dict[str, NodeView] = {}
     for name, namespace in sorted(node.get_node_names_and_namespaces()):
         node_name = full_name(name, namespace)
@@ -88,8 +83,6 @@ def others(node: Node, ends: list[TopicEndpointInfo]) -> list[TopicEndpointInfo]
 
 def of_node(node: Node, query: str, name: str) -> list[tuple[str, list[str]]]:
     """What a query of the graph, such as "get_service_names_and_types_by_node", says of a node; nothing if it has just gone."""
-    from rclpy.node import NodeNameNonExistentError
-
     namespace, _, base = name.rpartition("/")
     try:
         return list(getattr(node, query)(base, namespace or "/"))
@@ -282,7 +275,7 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
     for _ in range(8):
         for boxes in columns.values():
             wanted = {
-                box: fmean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
+                box: _mean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
                 for box in boxes
             }
             boxes.sort(key=wanted.__getitem__)
@@ -295,13 +288,17 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
         bottom = max(bottom, box.middle + box.height / 2)
 
 
+def _mean(values: list[float]) -> float:
+    return math.fsum(values) / len(values)
+
+
 def _stack(boxes: list[Box], wanted: list[float]) -> None:
     """Put boxes below one another, none upon another, on average where they are wanted."""
     bottom = -math.inf
     for box, middle in zip(boxes, wanted, strict=True):
         box.middle = max(middle, bottom + GAP + box.height / 2)
         bottom = box.middle + box.height / 2
-    off = fmean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
+    off = _mean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
     for box in boxes:
         box.middle -= off
 

@@ -14,8 +14,6 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
-KINDS = ("debugging", "code review")
-
 _OPENING = {
     "debugging": "I am learning ROS 2 (Humble, rclpy) and my system does not do what it should. Please help me find the "
     "cause.",
@@ -67,7 +65,7 @@ def compose(kind: str, code: Mapping[str, str], error: str, graph: str, log: Seq
 
     Raises ValueError for an unknown kind.
     """
-    if kind not in KINDS:
+    if kind not in _OPENING:
         raise ValueError(f'there are prompts for "debugging" and for "code review", got {kind!r}')
     languages = {".xml": "xml", ".txt": "cmake", ".msg": "", ".srv": "", ".yaml": "yaml"}
     written = "\n\n".join(

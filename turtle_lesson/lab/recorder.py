@@ -13,7 +13,14 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from rcl_interfaces.msg import ParameterEvent
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+from rclpy.time import Time
 
 from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
 from .graph import others, owner
@@ -29,11 +36,6 @@ from .recording import (
     Recording,
 )
 from .words import listed
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.publisher import Publisher
-    from rclpy.subscription import Subscription
 
 GLANCE_PERIOD = 1.0
 """Seconds between two glances at the graph, for publishers that come late in a node's life."""
@@ -78,8 +80,6 @@ class Recorder(Recording):
         origin: int | None = None,
         advice: Advice = IN_A_LESSON,
     ) -> None:
-        from rcl_interfaces.msg import ParameterEvent
-
         if origin is None:
             origin = node.get_clock().now().nanoseconds
         super().__init__(origin=origin)
@@ -248,8 +248,6 @@ class Channel:
 
     def _quality(self) -> Any:
         """Best effort matches every publisher; only a latched topic has to be reliable to give its past."""
-        from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-
         if self.latched:
             return QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         return QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -263,8 +261,6 @@ def with_time(node: Node, listener: Listener) -> Callable[..., None]:
     """
     if getattr(node, "hears_times", False):
         return listener
-    from rclpy.subscription import Subscription
-
     compiled = importlib.util.find_spec("rclpy._rclpy_pybind11") is not None
     if hasattr(Subscription, "CallbackType") or not compiled:
         return listener
@@ -332,8 +328,6 @@ class ObstacleBoard:
 
         Raises ValueError for a world that there is not, TypeError for what is no obstacle.
         """
-        from rclpy.qos import DurabilityPolicy, QoSProfile
-        from rclpy.time import Time
         from visualization_msgs.msg import MarkerArray
 
         if isinstance(obstacles, str):

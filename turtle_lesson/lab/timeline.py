@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from rclpy.node import Node
 
 from ..ros.idl.names import is_hidden
 from ..ros.rmw.trace import TOPICS
@@ -20,7 +21,6 @@ from .words import count, listed, number, rate, shortened
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from rclpy.node import Node
 
     from ..ros.rmw.trace import Callback, Trace
 

@@ -44,6 +44,11 @@ class Workspace:
         """The folder of the package's source."""
         return self.folder / "src" / PACKAGE
 
+    @property
+    def nodes(self) -> Path:
+        """The folder of the package's programs."""
+        return self.package / PACKAGE
+
     def __repr__(self) -> str:
         return self.state()
 

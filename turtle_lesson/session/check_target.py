@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING, Any
 
+from ..ros.rmw.network import set_conditions
 from ..ros.sim.errors import DriveTimeout, NeverReturns, SimulationError, WorldClosed
 from ..ros.sim.interrupts import work_done
 from ..ros.sim.run_blocking import drive_within
 from ..ros.sim.simulation import NANOSECONDS
-from .live import LONGEST_CALLBACK, CellNodes
+from .live import LONGEST_CALLBACK, CellNodes, InWorld
 
 if TYPE_CHECKING:
     from ..lab.recorder import ObstacleBoard, Recorder
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from ..ros.sim.strand import Strand
 
 
-class CheckTarget:
+class CheckTarget(InWorld):
     """A `Target` of checks (see lab/checks/probe.py).
 
     A node that was made in a cell is only alive while that cell spins it. While a check looks, such nodes are spun; what
@@ -27,22 +28,12 @@ class CheckTarget:
     """
 
     def __init__(self, world: World, recording: Recorder, board: ObstacleBoard) -> None:
-        self._world = world
+        super().__init__(world)
         self.recording = recording
         self.node = recording.node
         self.board = board
         self._errors: list[tuple[str, Exception]] = []
         self._cells = CellNodes(world)
-
-    @property
-    def now(self) -> float:
-        """Robot time: seconds since the world began."""
-        return self._world.now / NANOSECONDS
-
-    @property
-    def ended(self) -> bool:
-        """Whether a newer `start()` has taken this world's place."""
-        return self._world.sim.closed
 
     @property
     def errors(self) -> list[tuple[str, Exception]]:
@@ -114,8 +105,6 @@ class CheckTarget:
     @contextmanager
     def network(self, topic: str, latency: float | None = None, loss: float | None = None) -> Iterator[None]:
         """Within this block the messages of a topic travel like this (see `Lesson.network`); after it, all travel as before."""
-        from ..ros.rmw.network import set_conditions
-
         graph = self._world.graph
         before = set_conditions(graph, "", None, None, None)
         set_conditions(graph, topic, latency, None, loss)

@@ -12,6 +12,7 @@ from ..learner.story import page_named
 from ..learner.workspace import Workspace, workspace
 from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry
+from ..ros.rmw.network import Conditions, set_conditions
 from ..ros.runtime import files
 from ..ros.runtime.files import CellOutput
 from ..ros.runtime.world import World, open_world, set_player, wall_time
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from ..ros.ament.source import Exported
     from ..ros.bags.recorder import Recording
     from ..ros.launching import LaunchHandle
-    from ..ros.rmw.network import Conditions
     from ..turtlesim.obstacles import Obstacle
     from .check_target import CheckTarget
 
@@ -241,8 +241,6 @@ class Lesson(Inspection):
         With none of the three, what was said about this name is forgotten; `network(None)` forgets everything. Returns
         what holds now, for all names; `network()` does nothing else. Raises ValueError or TypeError.
         """
-        from ..ros.rmw.network import set_conditions
-
         return set_conditions(self._world.graph, topic, latency, jitter, loss)
 
     # -- programs --------------------------------------------------------------------------------------------------

@@ -219,20 +219,11 @@ class Stopwatch:
         return (after - before) / NANOSECONDS / max(last - first, 1e-9)
 
 
-class SimBackend:
-    """A `Backend` (see lab/widgets/backend.py) in a world of this notebook, with its player as the clock."""
+class InWorld:
+    """What sees a world of this notebook."""
 
-    def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
-        from ..lab.widgets.backend import Loop
-
+    def __init__(self, world: World) -> None:
         self._world = world
-        self.recorder = recorder
-        self.board = board
-        self.node = recorder.node
-        self.clock: Clock | None = player
-        self.keyboard: Keyboard | None = world.sim.keyboard
-        self.loop = Loop()
-        self.at_close = world.at_close
 
     @property
     def now(self) -> float:
@@ -243,3 +234,19 @@ class SimBackend:
     def ended(self) -> bool:
         """Whether a newer `start()` has taken this world's place."""
         return self._world.sim.closed
+
+
+class SimBackend(InWorld):
+    """A `Backend` (see lab/widgets/backend.py) in a world of this notebook, with its player as the clock."""
+
+    def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
+        from ..lab.widgets.backend import Loop
+
+        super().__init__(world)
+        self.recorder = recorder
+        self.board = board
+        self.node = recorder.node
+        self.clock: Clock | None = player
+        self.keyboard: Keyboard | None = world.sim.keyboard
+        self.loop = Loop()
+        self.at_close = world.at_close

@@ -46,22 +46,19 @@ class Copy:
     def content(self) -> bytes:
         """What is in it. Raises PageError, which says why it cannot be read."""
         try:
-            return self._content()
+            if self.member:
+                archive_path = self.path.parents[len(Path(self.member).parts) - 1]
+                with zipfile.ZipFile(archive_path) as archive, archive.open(self.member) as file:
+                    found = file.read(LARGEST + 1)
+            else:
+                with self.path.open("rb") as file:
+                    found = file.read(LARGEST + 1)
         except FileNotFoundError:
             raise PageError("does not exist") from None
         except OSError as error:
             raise PageError(f"cannot be read: {error.strerror or error}") from None
         except (zipfile.BadZipFile, RuntimeError, NotImplementedError, zlib.error, EOFError) as error:
             raise PageError(f"cannot be read from the zip file: {error}") from None
-
-    def _content(self) -> bytes:
-        if self.member:
-            archive_path = self.path.parents[len(Path(self.member).parts) - 1]
-            with zipfile.ZipFile(archive_path) as archive, archive.open(self.member) as file:
-                found = file.read(LARGEST + 1)
-        else:
-            with self.path.open("rb") as file:
-                found = file.read(LARGEST + 1)
         if len(found) > LARGEST:
             raise PageError(f"is larger than {LARGEST // 1_000_000} MB")
         return found

@@ -89,7 +89,6 @@ def grade(
     """Grade copies, some at once; the answers are in the order of the copies. `told` hears of each that is done.
 
     Args:
-        copies: as they were handed in.
         timeout: computing time, s, that each may take.
         jobs: how many run at once on this machine.
         told: is given how many are done, how many there are, and the one that was done last.

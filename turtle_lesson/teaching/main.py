@@ -200,13 +200,7 @@ def _open(options: argparse.Namespace) -> int:
 
 
 def serve(folder: Path, server: str, options: Sequence[str]) -> int:
-    """Run a Jupyter server until it is stopped; where the system can, in place of this process.
-
-    Args:
-        folder: all that it shows.
-        server: the module that is the server.
-        options: of its command line.
-    """
+    """Run a Jupyter server, a module, until it is stopped; where the system can, in place of this process."""
     words = [sys.executable, "-P", "-m", server, *options, f"--ServerApp.root_dir={folder.resolve()}"]
     environment = dict(os.environ) | {OPENED: str(folder.resolve()), "JUPYTERHUB_DEFAULT_URL": f"/lab/tree/{FIRST}"}
     for name in ("JUPYTER_PATH", "JUPYTER_CONFIG_PATH"):

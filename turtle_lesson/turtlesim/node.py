@@ -16,6 +16,7 @@ Where it differs from the real one:
   both).
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import rclpy
@@ -197,17 +198,16 @@ class ShownTurtle:
     def _on_teleport_relative(
         self, request: TeleportRelative.Request, response: TeleportRelative.Response
     ) -> TeleportRelative.Response:
-        try:
-            self._turtle.teleport_relative(request.linear, request.angular)
-        except TurtleError as error:
-            self._node.get_logger().error(str(error))
-        return response
+        return self._teleported(response, self._turtle.teleport_relative, request.linear, request.angular)
 
     def _on_teleport_absolute(
         self, request: TeleportAbsolute.Request, response: TeleportAbsolute.Response
     ) -> TeleportAbsolute.Response:
+        return self._teleported(response, self._turtle.teleport_absolute, request.x, request.y, request.theta)
+
+    def _teleported(self, response: Any, teleport: Callable[..., None], *numbers: float) -> Any:
         try:
-            self._turtle.teleport_absolute(request.x, request.y, request.theta)
+            teleport(*numbers)
         except TurtleError as error:
             self._node.get_logger().error(str(error))
         return response

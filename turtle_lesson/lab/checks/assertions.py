@@ -9,6 +9,9 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
+from rclpy.parameter import Parameter, parameter_value_to_python
+
+from ...learner.workspace import workspace
 from ..words import count, did_you_mean, listed, number, shortened
 from .probe import Answer, Heard, Probe
 from .registry import Expectation, expectation
@@ -89,8 +92,6 @@ def parameter(probe: Probe, owner: str, name: str, value: Any) -> Seen:
 
 def get_parameter(probe: Probe, owner: str, name: str) -> Any:
     """The value of a node's parameter, None if it has none. Raises CannotLook where the node does not answer."""
-    from rclpy.parameter import parameter_value_to_python
-
     if owner not in probe.nodes():
         raise CannotLook(f"there is no node {owner}")
     if name not in _ask(probe, owner, "list").result.names:
@@ -101,8 +102,6 @@ def get_parameter(probe: Probe, owner: str, name: str) -> Any:
 
 def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> str:
     """Set a parameter; returns why the node refused, or "". It is put back when the probe is over."""
-    from rclpy.parameter import Parameter
-
     before = get_parameter(probe, owner, name)
     if before is None:
         raise CannotLook(f"{owner} has not declared a parameter {name}")
@@ -226,12 +225,9 @@ def _shown(value: Any) -> str:
 
 def _names_in(probe: Probe, file: str) -> dict[str, Any]:
     """All names that a file of the package makes when it is read; its `main` is not started."""
-    from ...learner.workspace import workspace
-
-    mine = workspace()
-    path = mine.package / mine.package.name / file
+    path = workspace().nodes / file
     if not path.is_file():
-        raise CannotLook(f"there is no file {path.relative_to(mine.folder.parent).as_posix()}")
+        raise CannotLook(f"there is no file {path.relative_to(workspace().folder.parent).as_posix()}")
     names = {"__name__": path.stem, "__file__": str(path)}
     probe.call(exec, compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
     return names

@@ -169,6 +169,17 @@ def _drive(probe: Probe, way: Way) -> Drive:
     return Drive(way.goal, begin, answer, commands[first_command:], poses[first_pose:])
 
 
+def missed(it: Drive, at_rest: bool = False, in_time: float = math.inf) -> str:
+    """What was wrong with a drive, whose answer may take so long (s); "" if nothing was."""
+    goal = point(*it.goal[:2])
+    if it.answer.response is None:
+        return f"{goal} was never answered"
+    off, seconds = it.distance(at_rest), it.answer.seconds
+    if it.response.success and off <= NEAR and seconds <= in_time:
+        return ""
+    return f"{goal}: success is {it.response.success} after {number(seconds, 1)} s, {number(off)} m away"
+
+
 def at_rest(poses: list[Heard]) -> bool:
     """Whether the turtle has not moved for a while, by the newest poses."""
     return not any(is_moving(each.message) for each in poses[-round(AT_REST / TICK) :])

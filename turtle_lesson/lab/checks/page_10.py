@@ -10,11 +10,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from ...learner.workspace import workspace
 from ..recording import WORLD
-from ..words import count, listed, number, point
+from ..words import count, listed, number
 from . import page_05
 from .assertions import judge_rate, learner_function, no_errors, publishes, relays, subscribes, told
-from .navigation import NEAR, Drive, Goal, Way, ask_for, away, drive, where
+from .navigation import NEAR, Drive, Goal, Way, ask_for, away, drive, missed, where
 from .page_04 import STATUS, STATUS_TYPE
 from .pages_06_07 import system_is_there
 from .probe import Heard, Probe, interface, remembered
@@ -205,8 +206,6 @@ def running(probe: Probe, program: str) -> list[str]:
 
 
 def _from_workspace(probe: Probe) -> Seen:
-    from ...learner.workspace import workspace
-
     mine = workspace().folder / "install"
     others = [name for name in PROGRAMS if not Path(running(probe, name)[0]).is_relative_to(mine)]
     step = 'Which package does this world know? lesson = start(seed=0, package="mine") knows yours.'
@@ -248,26 +247,15 @@ def shift(probe: Probe) -> Shift:
         done.drives.append(drive(probe, Way(f"drive {made}", None, GOALS[made % len(GOALS)])))
         a_round = len(done.drives) % len(GOALS) == 0
         uneven = a_round and not (done.status_rate().good and done.scan_rate().good)
-        done.whole = not _missed(done.drives[-1]) and not uneven
+        done.whole = not missed(done.drives[-1]) and not uneven
     return done
-
-
-def _missed(it: Drive) -> str:
-    """What was wrong with a drive; "" if nothing was."""
-    goal = point(*it.goal[:2])
-    if it.answer.response is None:
-        return f"goal {goal} was never answered"
-    if it.response.success and it.distance() <= NEAR:
-        return ""
-    after = number(it.answer.seconds, 1)
-    return f"goal {goal}: success is {it.response.success} after {after} s, {number(it.distance())} m away"
 
 
 def _reached(probe: Probe) -> Seen:
     done = shift(probe)
     step = hinted("Drive to that goal alone: what does the navigator's log say, and how long may a goal take?", 1)
-    if wrong := next(filter(None, map(_missed, done.drives)), ""):
-        return Seen(False, wrong, step)
+    if wrong := next(filter(None, map(missed, done.drives)), ""):
+        return Seen(False, f"goal {wrong}", step)
     if not done.whole:
         raise CannotLook("the work was cut short, because messages came too rarely or too often")
     far = max(it.distance() for it in done.drives)

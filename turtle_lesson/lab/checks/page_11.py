@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+from ...learner.story import FINISHED
+from ...learner.workspace import workspace
 from ..words import listed, number
 from .assertions import gaps_of, no_errors, node, parameter, publishes, rate, returns, subscribes
 from .navigation import COMMAND_TYPE, COMMANDS
@@ -48,9 +50,6 @@ def _paths(probe: Probe) -> Iterator[tuple[str, Path]]:
 
 
 def _exported(probe: Probe) -> Seen:
-    from ...learner.story import FINISHED
-    from ...learner.workspace import workspace
-
     elsewhere = {"your workspace": workspace().folder, "the finished package": FINISHED}
     for program, path in _paths(probe):
         for name, folder in elsewhere.items():
@@ -63,10 +62,8 @@ def _exported(probe: Probe) -> Seen:
 
 def _unchanged(probe: Probe) -> Seen:
     """Whether each program has the text of the learner's own file, which is in the workspace."""
-    from ...learner.workspace import workspace
-
     for program, path in _paths(probe):
-        mine = workspace().package / workspace().package.name / f"{program}_node.py"
+        mine = workspace().nodes / f"{program}_node.py"
         if not mine.is_file():
             raise CannotLook(f"there is no {mine.name} in your workspace")
         if path.read_text(encoding="utf-8").split() != mine.read_text(encoding="utf-8").split():

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from random import Random
 from typing import Any
 
-from ..words import count, number, point
+from ...learner.workspace import workspace
+from ..words import count, number
 from .assertions import learner_function, no_errors, node
-from .navigation import MIDDLE, NEAR, POSE, POSE_TYPE, Drive, Way, drive, is_moving, put
+from .navigation import MIDDLE, POSE, POSE_TYPE, Way, drive, is_moving, missed, put
 from .page_10 import running
 from .probe import Probe, remembered
 from .registry import Expectation, check, expectation
@@ -234,8 +235,6 @@ def robust() -> list[Expectation]:
 
 
 def _is_own(probe: Probe) -> Seen:
-    from ...learner.workspace import workspace
-
     program = running(probe, "navigator")[0]
     mine = str(workspace().folder / "install")
     return Seen(program.startswith(mine), "it is" if program.startswith(mine) else "it came from elsewhere",
@@ -244,10 +243,7 @@ def _is_own(probe: Probe) -> Seen:
 
 def drawn_goals(amount: int, latency: float) -> list[Way]:
     """Goals that nobody has seen: they are drawn from the text of the learner's navigator, so a new one has new goals."""
-    from ...learner.workspace import workspace
-
-    mine = workspace()
-    file = mine.package / mine.package.name / "navigator_node.py"
+    file = workspace().nodes / "navigator_node.py"
     text = file.read_text(encoding="utf-8") if file.is_file() else ""
     chance = Random(f"{latency} {text}")
     return [
@@ -269,18 +265,7 @@ def _reaches(probe: Probe, expected: str, latency: float, amount: int) -> Seen:
     with probe.target.network(ALL_OF_THE_TURTLE, latency=latency) if latency else nullcontext():
         for made, way in enumerate(drawn_goals(amount, latency)):
             it = drive(probe, way)
-            if wrong := missed(it):
+            if wrong := missed(it, at_rest=True, in_time=IN_TIME):
                 return Seen(False, f"{made} were reached, then {wrong}", advice)
             slowest = max(slowest, it.answer.seconds)
     return Seen(True, f"all of them, the slowest after {number(slowest, 1)} s")
-
-
-def missed(it: Drive) -> str:
-    """What was wrong with a drive; "" if nothing was."""
-    goal = point(*it.goal[:2])
-    if it.answer.response is None:
-        return f"{goal} was never answered"
-    away, seconds = it.distance(at_rest=True), it.answer.seconds
-    if it.response.success and away <= NEAR and seconds <= IN_TIME:
-        return ""
-    return f"{goal}: success is {it.response.success} after {number(seconds, 1)} s, {number(away)} m away"

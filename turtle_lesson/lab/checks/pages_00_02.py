@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ...learner.workspace import workspace
 from ..recording import NANOSECONDS
 from ..words import angle, count, number, point, turned
 from .assertions import answers, no_errors, node, offers, publishes, rate, relays, some, subscribes
@@ -294,8 +295,6 @@ def _has_fields(
 
 def _cause(type_name: str) -> str:
     """Which of the three causes keeps a type of the learner's package from being found."""
-    from ...learner.workspace import workspace
-
     package, kind, name = type_name.split("/")
     mine, file = workspace(), f"{kind}/{name}.{kind}"
     cmake = mine.package / "CMakeLists.txt"

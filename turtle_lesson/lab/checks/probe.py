@@ -16,6 +16,13 @@ from operator import attrgetter
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
+from rcl_interfaces.msg import Log
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
 from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
 from ..graph import node_names, of_node, others, owner, servers
@@ -25,11 +32,6 @@ from ..words import listed, number
 from .results import ENDLESS, CannotLook, OutOfTime, Stopped, in_words, never_returned, unreturned
 
 if TYPE_CHECKING:
-    from rclpy.client import Client
-    from rclpy.node import Node
-    from rclpy.publisher import Publisher
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
-
     from ...ros.sim.strand import Strand
     from ...turtlesim.obstacles import Box, Circle
 
@@ -330,15 +332,11 @@ class Probe:
 
     def _subscribe(self, message_class: Any, topic: str, callback: Callable[..., None]) -> None:
         """Call `callback` with each message until the probe is over; best effort, which hears every publisher."""
-        from rclpy.qos import QoSProfile, ReliabilityPolicy
-
         quality = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
         subscription = self.node.create_subscription(message_class, topic, callback, quality)
         self._clean_up.append(lambda: self.node.destroy_subscription(subscription))
 
     def _hear_the_log(self) -> None:
-        from rcl_interfaces.msg import Log
-
         def hear(line: Any) -> None:
             level = line.level[0] if isinstance(line.level, bytes) else int(line.level)
             self.log.append((level, line.name, line.msg))

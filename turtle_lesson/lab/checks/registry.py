@@ -100,13 +100,8 @@ _checks: dict[str, Check] = {}
 def check(page: str, *, points: int, limit: float, learnt: str = "") -> Callable[[Maker], Check]:
     """Decorator that makes a check of a function which returns its expectations; its docstring is the title.
 
-    The function's name is what `lesson.check` is given.
-
-    Args:
-        page: one of `PAGES`.
-        points: what it is worth, if every expectation is met.
-        limit: robot time, in s, that it may take at most; what is not looked at by then is marked with –.
-        learnt: one sentence that is shown when the check is passed: what the learner can do now.
+    The function's name is what `lesson.check` is given, and `page` is one of `PAGES`. What is not looked at within `limit` s of
+    robot time is marked with –.
     """
     if page not in PAGES:
         raise ValueError(f"there is no page {page!r}. {did_you_mean(page, PAGES)}".strip())

@@ -14,16 +14,16 @@ from dataclasses import dataclass
 from time import thread_time
 from typing import TYPE_CHECKING, Any, Protocol
 
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.task import Future
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
 from ..graph import others
 from ..words import enumerated, listed, number
 from .message_fields import plain
 
 if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.qos import QoSProfile
-    from rclpy.task import Future
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
-
     from ...ros.sim.keyboard import Keyboard
     from ..recorder import ObstacleBoard, Recorder
     from .live_widget import LiveWidget
@@ -262,8 +262,6 @@ class LazyPublisher:
 
     def _quality(self) -> QoSProfile:
         """Reliable; and latched where a listener wants to be told of what was said before it came."""
-        from rclpy.qos import DurabilityPolicy, QoSProfile
-
         wanted = {end.qos_profile.durability for end in self._others(self.topic)}
         latched, volatile = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
         return QoSProfile(depth=10, durability=latched if latched in wanted else volatile)

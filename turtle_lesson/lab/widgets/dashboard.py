@@ -9,6 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import traitlets
+from rcl_interfaces.msg import Log
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.subscription import Subscription
 
 from ...ros.idl.names import is_hidden
 from .. import drawing
@@ -25,8 +29,6 @@ from .live_widget import pack
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-    from rclpy.node import Node
-    from rclpy.subscription import Subscription
 
     from .backend import Backend
 
@@ -104,9 +106,6 @@ class Dashboard(GoalPad):
 
     def opened(self) -> None:
         super().opened()
-        from rcl_interfaces.msg import Log
-        from rclpy.qos import DurabilityPolicy, QoSProfile
-
         self._log_read_until = self._log_newest
         latched = QoSProfile(
             depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL

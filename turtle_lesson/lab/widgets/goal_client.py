@@ -7,15 +7,15 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from weakref import WeakSet
+
+from rcl_interfaces.msg import Log
+from rclpy.subscription import Subscription
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..graph import owner, servers
 from .backend import DISCOVERY, Backend
-
-if TYPE_CHECKING:
-    from rclpy.subscription import Subscription
 
 SERVICE = "/navigate_to"
 AT_ONCE = 0.5
@@ -220,8 +220,6 @@ class ServerWatcher:
         self._names = [name for name, _ in servers(self._backend.node, self._service)]
         self._ends = self._rosout_ends()
         if self._subscription is None:
-            from rcl_interfaces.msg import Log
-
             self._subscription = self._backend.node.create_subscription(Log, "/rosout", self._hear, 1000)
 
     def close(self) -> None:

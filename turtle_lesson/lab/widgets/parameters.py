@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import traitlets
+from rcl_interfaces import msg, srv
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.parameter import Parameter, get_parameter_value, parameter_value_to_python
+from rclpy.task import Future
 
 from ...ros.idl.names import is_hidden
 from ..graph import node_names
@@ -14,11 +19,6 @@ from ..words import count, did_you_mean, enumerated
 from .backend import DISCOVERY, Backend, in_a_moment
 from .live_widget import LiveWidget
 from .message_fields import read_float, read_integer
-
-if TYPE_CHECKING:
-    from rclpy.client import Client
-    from rclpy.node import Node
-    from rclpy.task import Future
 
 SERVICES = {
     "list": "ListParameters",
@@ -89,12 +89,9 @@ class ParametersPanel(LiveWidget):
         self._show()
 
     def opened(self) -> None:
-        from rcl_interfaces import srv
-        from rcl_interfaces.msg import ParameterEvent
-
         if not self._clients:
             node = self.backend.node
-            self._events = node.create_subscription(ParameterEvent, "/parameter_events", self._follow, 100)
+            self._events = node.create_subscription(msg.ParameterEvent, "/parameter_events", self._follow, 100)
             for name, kind in SERVICES.items():
                 self._clients[name] = node.create_client(getattr(srv, kind), f"{self.node_name}/{name}_parameters")
             self._found_by = self.backend.now + DISCOVERY
@@ -169,10 +166,8 @@ class ParametersPanel(LiveWidget):
 
     def _take(self, names: list[str], descriptors: list[Any], values: list[Any]) -> None:
         """One that is not set makes some nodes give no value at all; then every value counts as not set."""
-        from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
-
-        values += [ParameterValue()] * (len(names) - len(values))
-        descriptors += [ParameterDescriptor()] * (len(names) - len(descriptors))
+        values += [msg.ParameterValue()] * (len(names) - len(values))
+        descriptors += [msg.ParameterDescriptor()] * (len(names) - len(descriptors))
         self._found = {name: self._found.get(name) or Found(name) for name in names}
         for found, value, descriptor in zip(self._found.values(), values, descriptors, strict=True):
             found.value, found.type, found.descriptor = parameter_to_python(value), value.type, descriptor
@@ -197,8 +192,6 @@ class ParametersPanel(LiveWidget):
 
         Where robot time stands still, a moment of it passes, so that the node can answer.
         """
-        from rcl_interfaces.msg import Parameter
-
         found = self._found.get(name)
         if found is None:
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
@@ -220,7 +213,7 @@ class ParametersPanel(LiveWidget):
                 self._told(found, f"Refused: {(result.reason if result else '') or 'refused, without a reason'}")
 
         found.pending = True
-        future = self._call("set", told, parameters=[Parameter(name=name, value=wanted)])
+        future = self._call("set", told, parameters=[msg.Parameter(name=name, value=wanted)])
         in_a_moment(self.backend, future.done)
         if found.pending:
             self.words = f"Asked {self.node_name} to set {name}; its answer comes once robot time passes."
@@ -308,8 +301,6 @@ def _look_up(node: Node, name: str) -> str:
 
 def parameter_to_python(value: Any) -> Any:
     """What an rcl_interfaces/msg/ParameterValue holds, bytes as numbers; None if it is not set."""
-    from rclpy.parameter import parameter_value_to_python
-
     found = parameter_value_to_python(value)
     return [each[0] for each in found] if value.type == BYTES else found
 
@@ -330,8 +321,6 @@ def read_parameter(typed: Any, kind: int, dynamic: bool = False) -> Any:
 
     `kind` is the number of the type; a dynamically typed parameter, and one that is not set, takes what YAML makes of it.
     """
-    from rclpy.parameter import Parameter, get_parameter_value
-
     if dynamic or kind == NOT_SET:
         return get_parameter_value(str(typed))
     return Parameter("", Parameter.Type(kind), _converted(typed, kind)).get_parameter_value()

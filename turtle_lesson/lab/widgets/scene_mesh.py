@@ -251,13 +251,13 @@ def walls() -> list[Mesh]:
     ]
 
 
-def outline(obstacle: Obstacle, sides: int = 36) -> np.ndarray:
+def outline(obstacle: Obstacle) -> np.ndarray:
     """The outline of an obstacle, from above: n by 2."""
     wide, high = obstacle.width / 2, obstacle.height / 2
     if obstacle.shape == "box":
         flat = np.array([(-wide, -high, 0.0), (wide, -high, 0.0), (wide, high, 0.0), (-wide, high, 0.0)])
     else:
-        flat = ring((0, 0, 0), wide, high, sides)
+        flat = ring((0, 0, 0), wide, high, 36)
     matrix = placed(obstacle.x, obstacle.y, 0.0, obstacle.angle)
     return (flat @ matrix[:3, :3].T + matrix[:3, 3])[:, :2]
 

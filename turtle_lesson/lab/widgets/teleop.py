@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import traitlets
+from geometry_msgs.msg import Twist
+from rclpy.timer import Timer
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..words import number
 from .backend import Backend, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
-
-if TYPE_CHECKING:
-    from rclpy.timer import Timer
 
 TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1
@@ -53,8 +51,6 @@ class Teleop(LiveWidget):
     """Why no node hears it; "" if one does."""
 
     def __init__(self, backend: Backend, topic: str) -> None:
-        from geometry_msgs.msg import Twist
-
         if not isinstance(topic, str) or not topic:
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
         name = backend.node.resolve_topic_name(topic)
