@@ -108,7 +108,7 @@ ANSWERS = {
             "a more exact z": "from statistics import NormalDist\n"
             + changed(INTERVAL, ("1.96", "NormalDist().inv_cdf(0.975)")),
             "by the table": (
-                "from turtle_lesson.experiments.pictures import wilson\n\n"
+                "from turtle_lesson.experiments.results import wilson\n\n"
                 "def interval(good, runs):\n    return wilson(good, runs)"
             ),
         },

@@ -119,7 +119,7 @@ def _check_workers(client: Client) -> None:
 _change = threading.Lock()
 _idle: dict[str, list[Worker]] = {}
 _all: dict[str, list[Worker]] = {}
-"""By experiment, the worker processes that are kept here."""
+"""The worker processes that are kept here, by their experiment."""
 
 
 def _itself(setting: Setting) -> Setting:

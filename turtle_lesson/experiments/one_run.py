@@ -43,7 +43,7 @@ PLAIN = (bool, int, float, str, type(None))
 """The types of what a table holds."""
 
 OPTIONS = ("package", "distro", "start_order")
-"""What of a run is asked for beside the function's parameters."""
+"""What is asked for of a run besides the function's parameters."""
 
 TAIL = 4000
 """How many characters of what a failed run has printed are kept."""

@@ -57,9 +57,6 @@ def hash_of_folders(folders: dict[str, bytes]) -> str:
     return hashlib.sha256(packed).hexdigest()[:16] if packed else ""
 
 
-# -- the function --------------------------------------------------------------------------------------------------------
-
-
 def pickled(function: Callable[..., Any]) -> bytes:
     """The function as cloudpickle sends it; what it uses of modules beside the notebook travels with it.
 

@@ -102,8 +102,6 @@ class Replay:
         self._call.close()
         self._folder.cleanup()
 
-    # -- going on ------------------------------------------------------------------------------------------------------
-
     def step(self, seconds: float = 1.0) -> None:
         """Let the run go on for some robot time, or to its end. The stop button pauses it; the next step goes on from there."""
         check_seconds("replay.step", seconds)
@@ -134,8 +132,6 @@ class Replay:
         finally:
             if self.done:
                 print(f"{self._title} {self._told()}")
-
-    # -- what came of it -----------------------------------------------------------------------------------------------
 
     @property
     def now(self) -> float:

@@ -73,8 +73,6 @@ class Results(Table):
         rows = [_row(run, ending, swept, values) for run, ending in done]
         return cls(rows, [*FIRST, *swept, "outcome", *values, *LAST], swept=swept, **more)
 
-    # -- parts -------------------------------------------------------------------------------------------------------
-
     def where(self, **values: Any) -> Results:
         """The rows in which columns have these values: `results.where(gain=2.0)`."""
         for column in values:
@@ -98,7 +96,7 @@ class Results(Table):
 
     @cached_property
     def runs(self) -> dict[int, Run]:
-        """By number, the run of each row."""
+        """The run of each row, by its number."""
         found = {}
         for row in self.rows:
             options = self.about.get("world", {}) | {name: row[name] for name in self.swept if name in OPTIONS}
@@ -146,8 +144,6 @@ class Results(Table):
 
         return replay_of(self, number, function)
 
-    # -- files -------------------------------------------------------------------------------------------------------
-
     def save(self, path: str | Path) -> Path:
         """Write the table to a file, "runs.csv" or "runs.parquet", with versions and settings; `experiment(resume=…)` reads it.
 
@@ -165,8 +161,6 @@ class Results(Table):
         except KeyError:
             raise ExperimentError(f"{path} is no table of an experiment") from None
         return Results(table.rows, table.columns, swept=swept, about=about, missing=missing)
-
-    # -- statistics --------------------------------------------------------------------------------------------------
 
     def plot(self, column: str, by: str | None = None) -> Picture:
         """A dot for each run, with quartiles and median; `by` names a column whose values are drawn side by side."""

@@ -75,8 +75,6 @@ class Table:
             there = did_you_mean(str(column), self.columns) or f"There are {enumerated(self.columns)}."
             raise ExperimentError(f"there is no column {column!r}. {there}")
 
-    # -- what is shown -----------------------------------------------------------------------------------------------
-
     def __repr__(self) -> str:
         head, rows = self._shown()
         widths = [max(map(len, cells)) for cells in zip(head, *rows, strict=True)]

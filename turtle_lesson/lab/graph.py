@@ -76,7 +76,7 @@ def owner(end: TopicEndpointInfo) -> str:
 
 
 def others(node: Node, ends: list[TopicEndpointInfo]) -> list[TopicEndpointInfo]:
-    """Of the publishers or subscriptions of a topic, those that are not of `node` itself."""
+    """The publishers or subscriptions of a topic without those of `node` itself."""
     me = full_name(node.get_name(), node.get_namespace())
     return [end for end in ends if owner(end) != me]
 
@@ -341,7 +341,7 @@ def _draw_arrow(arrow: Arrow, lefts: dict[str, float], widths: dict[str, float])
 
 
 def _port(box: Box, arrow: Arrow) -> float:
-    """Where an arrow touches a box: the arrows of one side are spread over it, in the order of what they lead to."""
+    """The height at which an arrow touches a box: a side's arrows are spread over it, in the order of what they lead to."""
     beside = [each for each in box.arrows if each.dashed == arrow.dashed]
     beside.sort(key=lambda each: (each.other(box).middle, each.inward))
     return box.middle + box.height * 0.8 * ((beside.index(arrow) + 0.5) / len(beside) - 0.5)

@@ -267,8 +267,6 @@ class Outcome:
         )
 
 
-# -- map ------------------------------------------------------------------------------------------------------------
-
 SCALE, SIDE, KEY = 24.0, WORLD * 24.0, 22.0
 """Pixels a metre, of the world's side, and a line of the key."""
 LEFT, TOP, RIGHT, BOTTOM = 40.0, 14.0, 18.0, 42.0

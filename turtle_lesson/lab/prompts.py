@@ -110,7 +110,7 @@ Not wanted: path planning, avoiding obstacles, several turtles, robot models, ha
 
 
 SUFFIXES = (".py", ".msg", ".srv", ".xml", ".txt", ".yaml")
-"""What of a package's folder is code: programs, interfaces, package.xml and CMakeLists.txt."""
+"""The files of a package that are code: programs, interfaces, package.xml and CMakeLists.txt."""
 
 MOST = 60_000
 """Characters in all: more is no help in a chat."""

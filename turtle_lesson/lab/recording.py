@@ -201,7 +201,7 @@ class Recording:
         return rows[chosen]
 
     def span(self, table: Table) -> str:
-        """From when to when a table has rows: "0.02 s to 24.51 s of robot time"."""
+        """The time that a table's rows span: "0.02 s to 24.51 s of robot time"."""
         first, last = self.seconds(table.array()["stamp"][[0, -1]])
         return f"{number(first)} s to {number(last)} s of robot time"
 

@@ -174,9 +174,9 @@ class Lane:
     marks: np.ndarray
     """When something happened that took no time, ns."""
     bars: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64))
-    """From when to when something lasted, ns, one a row."""
+    """Begin and end, ns, of what lasted, one a row."""
     waits: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64))
-    """From when to when something was ready and had to wait, ns, one a row."""
+    """Begin and end, ns, of each wait of what was ready, one a row."""
     awaits: bool = False
     """Whether the bars are those of an `async def`, which leaves its thread to others."""
     callback: bool = False

@@ -52,8 +52,6 @@ class Workspace:
     def __repr__(self) -> str:
         return self.state()
 
-    # -- what a page needs -------------------------------------------------------------------------------------------
-
     def prepare(self, page: str) -> Workspace:
         """Bring what the pages before this one would have left, where it is missing. The learner's own files are kept.
 
@@ -105,8 +103,6 @@ class Workspace:
     def _origin(self, path: str, memory: dict[str, Any]) -> str:
         written, page = memory["files"].get(path, ["", "?"])
         return FILLED_IN if page == "" and written == _hash(_text(self.package / path) or "") else YOURS
-
-    # -- building ----------------------------------------------------------------------------------------------------
 
     @property
     def is_built(self) -> bool:
@@ -172,8 +168,6 @@ class Workspace:
         self._write(file, text)
         self._remember(memory)
         return f"{'Appending to' if append else 'Writing' if now is None else 'Overwriting'} {shown}"
-
-    # -- small things ------------------------------------------------------------------------------------------------
 
     def _write(self, file: Path, text: str) -> None:
         """Write a file of the workspace. Raises PermissionError where a link leads out of the learner's folder."""

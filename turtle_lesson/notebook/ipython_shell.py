@@ -77,9 +77,6 @@ def _show(
     shell.showtraceback((kind, error, error.__traceback__), tb_offset=0)
 
 
-# -- commands ----------------------------------------------------------------------------------------------------------
-
-
 @magics_class
 class TerminalMagics(Magics):
     """The terminal of a notebook. Nothing in its lines is expanded: `{…}` and `$…` are YAML, and not Python."""

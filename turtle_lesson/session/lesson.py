@@ -142,8 +142,6 @@ class Lesson(Inspection):
     def __repr__(self) -> str:
         return f"<Lesson at {self.now:.3f} s of robot time>"
 
-    # -- time ------------------------------------------------------------------------------------------------------
-
     @property
     def now(self) -> float:
         """The robot time: seconds since this world began."""
@@ -215,8 +213,6 @@ class Lesson(Inspection):
         """Stop what `play` began."""
         self._player.pause()
 
-    # -- the network -----------------------------------------------------------------------------------------------
-
     def network(
         self,
         topic: str | None = "",
@@ -242,8 +238,6 @@ class Lesson(Inspection):
         what holds now, for all names; `network()` does nothing else. Raises ValueError or TypeError.
         """
         return set_conditions(self._world.graph, topic, latency, jitter, loss)
-
-    # -- programs --------------------------------------------------------------------------------------------------
 
     @property
     def workspace(self) -> Workspace:
@@ -273,8 +267,6 @@ class Lesson(Inspection):
         handle.wait_until_up()
         return handle
 
-    # -- bags ------------------------------------------------------------------------------------------------------
-
     def record(self, path: str | Path, topics: Iterable[str] | None = None, storage: str = "mcap") -> Recording:
         """Record topics into a bag, a new folder at `path`, until `stop()` or the end of a `with` block.
 
@@ -299,8 +291,6 @@ class Lesson(Inspection):
 
         return export_package(self._world, package, to, overwrite=overwrite)
 
-    # -- obstacles -------------------------------------------------------------------------------------------------
-
     def place(self, *obstacles: Obstacle) -> None:
         """Put obstacles (`Circle`, `Box`) into the world. They are published on /world/obstacles."""
         self._board.put([*self._board.obstacles, *obstacles])
@@ -313,8 +303,6 @@ class Lesson(Inspection):
     def obstacles(self) -> tuple[Obstacle, ...]:
         """The obstacles in the world."""
         return self._board.obstacles
-
-    # -- pictures --------------------------------------------------------------------------------------------------
 
     def _lab(self) -> None:
         """The lab's own process: a node with a hidden name that listens, and publishes the obstacles."""

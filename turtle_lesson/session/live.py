@@ -200,7 +200,7 @@ class Stopwatch:
         self._marks: deque[tuple[float, int]] = deque([(now, 0)])
 
     def mark(self, now: float, played: int) -> None:
-        """By this moment (s) so much more robot time (ns) went by."""
+        """Note how much more robot time (ns) went by until this moment (s)."""
         self._marks.append((now, self._marks[-1][1] + played))
         while len(self._marks) > 2 and self._marks[1][0] < now - self.WINDOW:
             self._marks.popleft()

@@ -58,8 +58,6 @@ class Views:
     def _recording(self) -> Recorder:
         raise NotImplementedError
 
-    # -- widgets -----------------------------------------------------------------------------------------------------
-
     def _widget(self, kind: Callable[..., Widget], *arguments: Hashable) -> Widget:
         """The widget of this kind and these arguments; made now if there is none yet."""
         widget = self._widgets.get((kind, arguments))
@@ -121,8 +119,6 @@ class Views:
 
         return self._widget(Scene)
 
-    # -- pictures ----------------------------------------------------------------------------------------------------
-
     def plot_path(self, **options: Any) -> Picture:
         """The way that the turtle went, on the map, from what /turtle1/pose said."""
         from ..lab.path import plot_path
@@ -164,8 +160,6 @@ class Inspection(Views):
     def _trace(self) -> Trace:
         assert self._world.trace is not None
         return self._world.trace
-
-    # -- exercises -----------------------------------------------------------------------------------------------------
 
     def check(self, name: str) -> CheckResult:
         """Look at the running system, and say what an exercise expects of it, what was seen, and what to do next.
@@ -229,8 +223,6 @@ class Inspection(Views):
         from ..lab import predictions
 
         return predictions.tell(name, value)
-
-    # -- what happened, and what is wrong ------------------------------------------------------------------------------
 
     def plot_timeline(self, *rows: str, since: float | None = None, until: float | None = None) -> Picture:
         """What happened when: a row a topic (a mark a message) and a row a callback (a bar while it runs or sleeps).

@@ -94,9 +94,6 @@ def _is_hidden(path: Path) -> bool:
     return any(part.startswith(".") or part == "__MACOSX" for part in path.parts)
 
 
-# -- learners ----------------------------------------------------------------------------------------------------------
-
-
 def _named(copies: Mapping[Copy, Path]) -> list[Copy]:
     """The same copies, with their learners' names. Those of one name in one place get Moodle's numbers, too.
 

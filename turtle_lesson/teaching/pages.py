@@ -83,9 +83,6 @@ def page_of(path: Path, metadata: Any = None) -> str:
     return next((each for each in PAGES if each in path.stem), "")
 
 
-# -- reset -------------------------------------------------------------------------------------------------------------
-
-
 def reset(path: Path, published: str | bytes) -> Path | None:
     """Put a page back into its published state; returns where the learner's copy is kept, None if nothing had changed."""
     content = published.encode() if isinstance(published, str) else published
@@ -161,9 +158,6 @@ def _from_git(name: str) -> bytes | None:
     except (OSError, subprocess.TimeoutExpired):
         return None
     return done.stdout if done.returncode == 0 else None
-
-
-# -- student -----------------------------------------------------------------------------------------------------------
 
 
 def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
@@ -256,8 +250,6 @@ class LearnersFolder:
         self._versions[path.name] = version(page)
         self._remember()
         return reset(path, nbformat.writes(page) + "\n")
-
-    # -- from the checkout's notebooks -------------------------------------------------------------------------------
 
     def take_along(self) -> list[str]:
         """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.

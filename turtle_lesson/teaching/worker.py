@@ -240,8 +240,6 @@ class Kernel:
             raise EndedEarly("its kernel died") from None
         return max(times.user + times.system, self.seconds * (time.monotonic() - self._began) / real_time(self.seconds))
 
-    # -- checks ----------------------------------------------------------------------------------------------------------
-
     def look(self, variable: str, name: str) -> dict[str, Any]:
         """Carry a check out: its rows, and what the copy has replaced; no rows if it did not answer."""
         secret, key = secrets.token_bytes(16), secrets.token_bytes(16)

@@ -145,8 +145,6 @@ def _run(make_node: Callable[[], Node]) -> None:
         rclpy.spin(make_node())
 
 
-# -- turtle_teleop_key ---------------------------------------------------------------------------------------------------
-
 HELP = """\
 Reading from keyboard
 ---------------------------

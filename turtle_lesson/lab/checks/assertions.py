@@ -75,9 +75,6 @@ def _ends(
     return Seen(True, f"as {type_name}")
 
 
-# -- parameters --------------------------------------------------------------------------------------------------------
-
-
 @expectation("{owner} has a parameter {name} = {value!r}")
 def parameter(probe: Probe, owner: str, name: str, value: Any) -> Seen:
     """A parameter that a node has declared, with this value and of its type."""
@@ -130,8 +127,6 @@ def _ask(probe: Probe, owner: str, what: str, **fields: Any) -> Any:
 def _service(owner: str, what: str) -> tuple[str, str]:
     return f"{owner}/{what}_parameters", f"rcl_interfaces/srv/{what.capitalize()}Parameters"
 
-
-# -- the log -----------------------------------------------------------------------------------------------------------
 
 ERROR = 40
 """The level from which on a line of the log is an error (rcl_interfaces/msg/Log)."""

@@ -79,7 +79,7 @@ class Drive:
         return by_then[-1] if by_then else self.begin
 
     def moving(self) -> tuple[float, float]:
-        """From when to when the turtle moved (robot time, s). Raises CannotLook if it never did."""
+        """The robot times (s) between which the turtle moved. Raises CannotLook if it never did."""
         times = [each.at for each in self.poses if is_moving(each.message)]
         if not times:
             raise CannotLook("the turtle never moved")
@@ -188,9 +188,6 @@ def at_rest(poses: list[Heard]) -> bool:
 def come_to_rest(probe: Probe, timeout: float) -> None:
     """Let robot time pass until the turtle has come to rest, or the timeout (s) is over."""
     probe.wait_for(lambda: at_rest(probe.listen(POSE, POSE_TYPE)), timeout)
-
-
-# -- expectations ------------------------------------------------------------------------------------------------------
 
 
 @expectation("{way.name}: success is True")

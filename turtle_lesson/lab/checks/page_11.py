@@ -190,7 +190,7 @@ def _times(probe: Probe) -> list[float]:
 
 
 def _at_its_pace(probe: Probe) -> Seen:
-    """By the median gap: where the bag begins again, one gap is another."""
+    """The median gap decides, since one gap differs where the bag begins again."""
     gaps = sorted(gaps_of(_times(probe)))
     if not gaps:
         return Seen(False, "none came", "Does the player still run when the cell is done?")

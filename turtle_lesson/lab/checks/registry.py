@@ -136,9 +136,6 @@ def find(name: object) -> Check:
     raise ValueError(f"there is no check {name!r}. {hint or f'There are {enumerated(known)}.'}")
 
 
-# -- carrying a check out --------------------------------------------------------------------------------------------------
-
-
 ODD = "Run the cells from the set-up cell on again; if it stays, compare your interfaces and types with the page's."
 
 

@@ -92,7 +92,7 @@ NO_ERROR = "no error meanwhile"
 """What is expected of every learner's code, whatever else a check expects."""
 
 METADATA = "turtle_lesson_check"
-"""Where an output's metadata holds the figures of a result, for a program that reads notebooks; they prove nothing."""
+"""The key of an output's metadata under which the figures of a result are, for programs that read notebooks; no proof."""
 
 WIDTH = 100
 """Characters in a line of the plain table."""
@@ -331,7 +331,7 @@ def _where(calls: list[Call], words: str) -> str:
 
 
 def _in_a_callback(calls: list[Call]) -> list[Call]:
-    """Of calls, outermost first, the learner's own ones within a callback that an executor runs; the callback first."""
+    """The learner's own calls within a callback that an executor runs, outermost first: the callback is the first."""
     executors = ("rclpy._executor", "rclpy.executors")
     names = [str(frame.f_globals.get("__name__", "")) for frame, _ in calls]
     spinning = [index for index, name in enumerate(names) if name.startswith(executors)]

@@ -37,7 +37,7 @@ SHARE = 0.035
 busy, is shown less often. The rest of 5 % goes to the threads that send the messages."""
 
 LONGEST_FRAME = 0.1
-"""But it is shown so often at least, s."""
+"""The longest time from one frame to the next, s."""
 
 NEWS = 0.05
 """How much a frame changes the average: some have much to do that the next ones have not."""
@@ -275,7 +275,7 @@ def let_time_go_on(backend: Backend) -> None:
 
 
 def in_a_moment(backend: Backend, has_come: Callable[[], bool]) -> None:
-    """Where robot time stands still, let a moment of it pass (0.05 s at most), so that an answer can come."""
+    """Let at most 0.05 s of robot time pass if it stands still, so that an answer can come."""
     for _ in range(10):
         if backend.clock is None or backend.clock.playing or has_come():
             return

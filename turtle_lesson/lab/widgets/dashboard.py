@@ -42,7 +42,7 @@ MOST_STATUSES = 3000
 POINTS = 300
 """About so many of them are drawn at most: one every 0.1 s."""
 STATUS_TIP = 30
-"""So many may be new until all are sent again."""
+"""All are sent again once so many are new."""
 
 NODES = ("/turtlesim", "/navigator", "/status_monitor", "/obstacle_detector")
 SERVICES = ("/navigate_to",)
@@ -59,7 +59,7 @@ RATE_WINDOW = 5.0
 PAUSE = 1.0
 """Seconds without a message after which a topic that should go on counts as silent."""
 TOLERANCE = 0.15
-"""By this share a rate may be off and still be as expected."""
+"""A rate that is off by at most this share is as expected."""
 MOST_ROWS = 12
 """Topics that are shown; each of those without an expected rate costs a subscription while the panel is seen."""
 MOST_MESSAGES = 1000

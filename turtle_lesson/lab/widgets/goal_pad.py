@@ -23,16 +23,16 @@ SPACING, KEPT, TAIL = 0.05, 600, 60
 whole trail is sent again."""
 
 TRAIL_RATE = 10.0
-"""So many times a second at most the trail is sent again; from its end to the turtle, the browser draws a line."""
+"""How often, times a second at most, the trail is sent again; the browser joins its end to the turtle by a line."""
 
 BREAK = np.full((1, 2), np.nan)
 """Where the trail breaks."""
 
 JUMP = 0.3
-"""At once it is sent again where that line would be longer than this, m."""
+"""The trail is sent again at once if that line would be longer than this, m."""
 
 STALE = 1.5
-"""A scan of more robot time ago than this, s, is no longer drawn on the map."""
+"""A scan older than this, s of robot time, is not drawn on the map."""
 
 LONGEST_STEP = 1.0
 """Seconds of robot time that one step may take."""

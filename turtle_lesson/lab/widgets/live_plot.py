@@ -174,7 +174,7 @@ MOST = 8
 """More curves than this cannot be told apart in one picture."""
 
 COLUMNS = 200
-"""Of a curve, the browser gets the lowest and the highest number in each of so many columns."""
+"""The browser gets the lowest and the highest number of a curve in each of so many columns."""
 
 ANCHOR = 1000.0
 """Times go to the browser since the last full 1000 s: 32 bits then keep a tenth of a millisecond."""
@@ -187,9 +187,9 @@ class LivePlot(LiveWidget):
     STYLES = ("base", "small", "live_plot")
 
     curves = traitlets.List(traitlets.Dict()).tag(sync=True)
-    """Of each curve: its "name", its "topic", the "last" number in words, and a "note" if there is nothing to hear."""
+    """The "name" of each curve, its "topic", the "last" number in words, and a "note" if there is nothing to hear."""
     points = traitlets.Bytes().tag(sync=True)
-    """Of each curve how many points follow, then time (s since the anchor) and number, time and number, …"""
+    """For each curve the number of points that follow, then time (s since the anchor) and number, time and number, …"""
     now = traitlets.Float(0.0).tag(sync=True)
     """Robot time since the anchor, s."""
     anchor = traitlets.Float(0.0).tag(sync=True)
@@ -319,7 +319,7 @@ class LivePlot(LiveWidget):
 
 
 def thinned(times: np.ndarray, values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
-    """Of numbers over time the lowest and the highest in each column of `width` seconds, in the order of time.
+    """The lowest and the highest of numbers over time in each column of `width` seconds, in the order of time.
 
     Columns begin at multiples of their width, so that points do not jump while time goes on.
     """
@@ -367,7 +367,7 @@ COLOURS = (
     drawing.INK,
 )
 DASHES: Sequence[Any] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (8, 2, 2, 2)), "-", (0, (6, 2)), (0, (2, 1.5)), "-")
-"""Beside the colours, so that curves are told apart without them; the same as in the browser (live_plot.js)."""
+"""Dashes tell curves apart without colours, too; they are those of live_plot.js."""
 
 LONGEST_NAME = 14
 """Characters of a curve's name that fit beside it; the end of a longer one, which tells most, is kept."""
@@ -395,7 +395,7 @@ def draw(text: str, windows: list[Window], now: float, seconds: float) -> Pictur
 
 
 def _label(axes: Any, windows: list[Window]) -> None:
-    """At the right end of each curve its name and its last number."""
+    """Write its name and its last number at the right end of each curve."""
     shown = [(index, *window) for index, window in enumerate(windows) if len(window[1])]
     low, high = axes.get_ylim()
     places = spread([float(values[-1]) for *_, values in shown], 0.085 * (high - low))

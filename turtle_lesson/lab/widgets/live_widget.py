@@ -127,8 +127,6 @@ class LiveWidget(anywidget.AnyWidget):
         """The running system as a picture."""
         return None
 
-    # -- in words and as a picture -------------------------------------------------------------------------------------
-
     def text(self) -> str:
         """The state in one exact sentence or two, after the system's end the last one: what print shows and nbval compares."""
         return self._text() if self._last_words is None else self._last_words
@@ -246,8 +244,6 @@ class LiveWidget(anywidget.AnyWidget):
         except Exception as error:
             self.words = f"{error}"
         self._tick()
-
-    # -- its end -------------------------------------------------------------------------------------------------------
 
     def end(self) -> None:
         """The system ends now: show its last state from now on."""

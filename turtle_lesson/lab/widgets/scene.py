@@ -32,10 +32,10 @@ if TYPE_CHECKING:
 
 VIEW_SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
 TRAIL_RATE, DESCRIPTION_RATE = 10.0, 1.0
-"""So many times a second at most, the trail and a screen reader's description of the scene are sent again."""
+"""How often, times a second at most, the trail and the description for screen readers are sent again."""
 
 AROUND, UP = math.radians(-62), math.radians(40)
-"""From where one looks: the direction in which the eye is, and its height above the horizon."""
+"""The viewpoint: the direction of the eye, and its height above the horizon, rad."""
 LIGHT = np.array([-0.35, -0.45, 0.82])
 
 
