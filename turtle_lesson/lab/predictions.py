@@ -195,13 +195,6 @@ class Question:
     def _repr_mimebundle_(self, **options: Any) -> Any:
         return self.widget._repr_mimebundle_(**options)
 
-    def put_aside(self) -> None:
-        """Close the widget: another question takes its place."""
-        if self._widget is not None:
-            from .widgets.live_widget import put_aside
-
-            put_aside(self._widget)
-
 
 _questions: dict[str, Question] = {}
 
@@ -221,8 +214,10 @@ def ask(
     """
     found = _questions.get(name)
     if found is None or not found.open or (found.question, found.kind) != (question, kind):
-        if found is not None:
-            found.put_aside()
+        if found is not None and found._widget is not None:
+            from .widgets.live_widget import put_aside
+
+            put_aside(found._widget)
         found = _questions[name] = Question(name, question, kind)
     found.turtle, found.goal = turtle, goal
     if guess is not None:

@@ -219,11 +219,20 @@ class Stopwatch:
         return (after - before) / NANOSECONDS / max(last - first, 1e-9)
 
 
-class InWorld:
-    """What sees a world of this notebook."""
+class SimBackend:
+    """A `Backend` (see lab/widgets/backend.py) in a world of this notebook, with its player as the clock."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
+        from ..lab.widgets.backend import Loop
+
         self._world = world
+        self.recorder = recorder
+        self.board = board
+        self.node = recorder.node
+        self.clock: Clock | None = player
+        self.keyboard: Keyboard | None = world.sim.keyboard
+        self.loop = Loop()
+        self.at_close = world.at_close
 
     @property
     def now(self) -> float:
@@ -234,19 +243,3 @@ class InWorld:
     def ended(self) -> bool:
         """Whether a newer `start()` has taken this world's place."""
         return self._world.sim.closed
-
-
-class SimBackend(InWorld):
-    """A `Backend` (see lab/widgets/backend.py) in a world of this notebook, with its player as the clock."""
-
-    def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
-        from ..lab.widgets.backend import Loop
-
-        super().__init__(world)
-        self.recorder = recorder
-        self.board = board
-        self.node = recorder.node
-        self.clock: Clock | None = player
-        self.keyboard: Keyboard | None = world.sim.keyboard
-        self.loop = Loop()
-        self.at_close = world.at_close

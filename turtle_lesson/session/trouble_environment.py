@@ -19,7 +19,6 @@ from ..ros.idl.names import module_name
 from ..ros.idl.registry import registry
 from ..ros.runtime.files import CellOutput, home
 from ..ros.sim.process import Process
-from .live import InWorld
 from .packages import install
 
 if TYPE_CHECKING:
@@ -44,7 +43,7 @@ class _SourcedBefore(list[Path]):
     """The install folders that were sourced when a world's first case was opened."""
 
 
-class TroubleEnvironment(InWorld):
+class TroubleEnvironment:
     """An `Environment` (see lab/troubles/cases.py) in a world of this notebook.
 
     Where the learner's own package is sourced when the first case is opened, the cases are about that one. Its files are
@@ -52,11 +51,16 @@ class TroubleEnvironment(InWorld):
     """
 
     def __init__(self, world: World) -> None:
-        super().__init__(world)
+        self._world = world
         sourced = list(dict.fromkeys(each.install for each in overlays(world)))
         self._sourced = world.notebook.state(_SourcedBefore, sourced)
         if "robot_draft" not in world.packages:
             world.packages.add(Package("robot_draft", DRAFTS, executables=_draft_programs()))
+
+    @property
+    def ended(self) -> bool:
+        """Whether a newer `start()` has taken this world's place."""
+        return self._world.sim.closed
 
     def clear(self) -> None:
         """Ctrl-C for every program but the simulator; the simulator and the package are there again, as before."""

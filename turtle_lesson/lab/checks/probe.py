@@ -19,9 +19,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 from rcl_interfaces.msg import Log
 from rclpy.client import Client
 from rclpy.node import Node
-from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
@@ -32,6 +30,9 @@ from ..words import listed, number
 from .results import ENDLESS, CannotLook, OutOfTime, Stopped, in_words, never_returned, unreturned
 
 if TYPE_CHECKING:
+    from rclpy.publisher import Publisher
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
+
     from ...ros.sim.strand import Strand
     from ...turtlesim.obstacles import Box, Circle
 
@@ -182,7 +183,12 @@ class Probe:
 
     def __enter__(self) -> Probe:
         self.target.limit_work(WORK)
-        self._hear_the_log()
+
+        def hear(line: Any) -> None:
+            level = line.level[0] if isinstance(line.level, bytes) else int(line.level)
+            self.log.append((level, line.name, line.msg))
+
+        self._subscribe(Log, "/rosout", hear)
         self.nodes_before = self.nodes()
         return self
 
@@ -335,13 +341,6 @@ class Probe:
         quality = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
         subscription = self.node.create_subscription(message_class, topic, callback, quality)
         self._clean_up.append(lambda: self.node.destroy_subscription(subscription))
-
-    def _hear_the_log(self) -> None:
-        def hear(line: Any) -> None:
-            level = line.level[0] if isinstance(line.level, bytes) else int(line.level)
-            self.log.append((level, line.name, line.msg))
-
-        self._subscribe(Log, "/rosout", hear)
 
     def errors(self) -> list[Exception]:
         """What the learner's code has raised since the probe began: in a callback of a cell's node, or in a program."""

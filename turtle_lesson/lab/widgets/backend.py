@@ -17,13 +17,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
-from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from ..graph import others
 from ..words import enumerated, listed, number
 from .message_fields import plain
 
 if TYPE_CHECKING:
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
+
     from ...ros.sim.keyboard import Keyboard
     from ..recorder import ObstacleBoard, Recorder
     from .live_widget import LiveWidget

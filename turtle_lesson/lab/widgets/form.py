@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import shlex
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import traitlets
 from rclpy.node import Node
-from rclpy.timer import Timer
 
 from ...ros.idl.names import is_hidden
 from ..words import count, did_you_mean, enumerated, listed
 from .backend import Backend, LazyClient, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
 from .message_fields import Group, Rows, Single, find_class, find_part
+
+if TYPE_CHECKING:
+    from rclpy.timer import Timer
 
 FASTEST = 100.0
 """How many messages a second a form publishes at most."""

@@ -1,6 +1,6 @@
 // Curves that go on: drawn on a canvas, with their names and last numbers beside their ends.
 
-// As in live_plot_picture.py; names of the style sheet's colours, which differ in a dark page.
+// As in live_plot.py; names of the style sheet's colours, which differ in a dark page.
 const CURVES = [
   ["c1", []], ["c2", [9, 4]], ["c3", [3, 3]], ["c4", [12, 4, 3, 4]], ["c5", []], ["c6", [9, 4]], ["ink", [3, 3]], ["grey", []],
 ]; // prettier-ignore
