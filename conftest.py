@@ -30,9 +30,12 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # A job in the background (`nohup … &`) ignores Ctrl-C, and so would the kernels whose cells these tests interrupt.
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-LONG = ("browser", "test_answers.py", "test_teaching_grade.py", "test_real_colcon.py", "test_story.py",
-        "test_pages_interrupt.py", "test_pages_restart.py", "test_installation.py", "notebooks")  # fmt: skip
-"""Files and folders whose tests take longest: they come first, so that no worker is left with one of them at the end."""
+LONG = ("test_learners_folder.py", "browser", "test_answers.py", "test_teaching_grade.py", "test_real_colcon.py",
+        "test_story.py", "test_pages_interrupt.py", "test_pages_restart.py", "test_installation.py", "notebooks")  # fmt: skip
+"""Files and folders whose tests take longest: they come first, so that no worker is left with one of them at the end.
+
+The first of them loads the window in which other tests of the folder `browser` go on.
+"""
 
 STEPS = ("browser", "test_story.py", "notebooks")
 """Files and folders whose tests share a window, a folder or a kernel: each goes on where the one before it has ended."""

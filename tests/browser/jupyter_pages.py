@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Browser, Frame, Page
+from playwright.sync_api import Frame, Page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [
@@ -71,27 +71,22 @@ class Lab:
 
 @contextmanager
 def jupyterlab(folder: Path) -> Iterator[Lab]:
-    """A JupyterLab that serves `folder` on this machine only, with nobody's settings."""
+    """The JupyterLab of README's first command, with nobody's settings: it serves a learner's folder, made in `folder`."""
     port = free_port()
     options = {
-        "ServerApp.ip": "127.0.0.1",
-        "ServerApp.port": port,
-        "ServerApp.port_retries": 0,
-        "ServerApp.root_dir": str(folder),
         "IdentityProvider.token": "",
         "ServerApp.allow_root": True,
         "LabApp.expose_app_in_browser": True,
-        "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate",
         "LanguageServerManager.autodetect": False,
     }
     words = [f"--{name}={value}" for name, value in options.items()]
     with (folder / "server.log").open("w") as log:
-        command = [sys.executable, "-m", "jupyterlab", "--no-browser", *words]
-        server = subprocess.Popen(command, env=isolated(folder), stdout=log, stderr=log)
+        command = [sys.executable, "-m", "turtle_lesson", "open", "--no-browser", "--port", str(port), *words]
+        server = subprocess.Popen(command, cwd=folder, env=isolated(folder), stdout=log, stderr=log)
     address = f"http://127.0.0.1:{port}"
     try:
         wait_until_it_answers(f"{address}/api/status", server, folder / "server.log")
-        yield Lab(address, folder)
+        yield Lab(address, folder / "my-lesson")
     finally:
         server.terminate()
         server.wait(100)
@@ -134,30 +129,28 @@ def listeners(problems: list[str]) -> dict[str, Callable[[Any], None]]:
     }
 
 
-def new_window(browser: Browser, problems: list[str], width: int = 1280) -> Page:
-    """A window of its own; what the browser complains of there is added to `problems`."""
-    page = browser.new_page(viewport={"width": width, "height": 1000})
-    page.set_default_timeout(PATIENCE)
-    for event, listener in listeners(problems).items():
-        page.on(event, listener)  # type: ignore[call-overload]
-    return page
-
-
 @contextmanager
-def notebook_in(page: Page, lab: Lab, name: str, problems: list[str], width: int = 1280) -> Iterator[Page]:
+def notebook_in(
+    page: Page, lab: Lab, name: str, problems: list[str], width: int = 1280, kernels_end: bool = True
+) -> Iterator[Page]:
     """A window with a notebook. It may show JupyterLab already, which takes seconds to load; afterwards it is empty again.
 
-    What the browser complains of meanwhile is added to `problems`.
+    What the browser complains of meanwhile is added to `problems`. Then the server's kernels end, unless another window goes
+    on with them.
     """
     hear = listeners(problems)
     page.set_viewport_size({"width": width, "height": 1000})
     for event, listener in hear.items():
         page.on(event, listener)  # type: ignore[call-overload]
-    open_notebook(page, lab, name)
-    yield page
-    for event, listener in hear.items():
-        page.remove_listener(event, listener)
-    close_all(page)
+    try:
+        open_notebook(page, lab, name)
+        yield page
+    finally:
+        for event, listener in hear.items():
+            page.remove_listener(event, listener)
+        close_documents(page)
+        if kernels_end:
+            page.evaluate("() => window.jupyterapp.serviceManager.sessions.shutdownAll()")
 
 
 def write_notebook(lab: Lab, name: str, cells: Sequence[str]) -> None:
@@ -185,15 +178,14 @@ def open_notebook(page: Page, lab: Lab, name: str) -> None:
     page.wait_for_function(f"{KERNEL}?.status === 'idle'")
 
 
-def close_all(page: Page) -> None:
-    """Close all documents of a window, unsaved, and end all kernels of the server."""
+def close_documents(page: Page) -> None:
+    """Close all documents of a window, unsaved."""
     choose_theme(page, "Light")
-    page.evaluate("""async () => {
+    page.evaluate("""() => {
       for (const each of Array.from(window.jupyterapp.shell.widgets('main'))) {
         if (each.context) each.context.model.dirty = false;
         each.close();
       }
-      await window.jupyterapp.serviceManager.sessions.shutdownAll();
     }""")
 
 

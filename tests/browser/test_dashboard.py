@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from jupyter_pages import PATIENCE, Lab, execute, notebook_in, open_notebook
-from playwright.sync_api import Browser, Page, expect
+from jupyter_pages import Lab, execute, notebook_in
+from playwright.sync_api import Page, expect
 
 NOTEBOOK = "notebooks/lab.ipynb"
 
@@ -46,22 +46,19 @@ def test_status_and_log_run_when_time_does(window: Page) -> None:
     window.get_by_role("button", name="Pause").click()
 
 
-def test_two_windows_are_in_step(window: Page, browser: Browser, lab: Lab) -> None:
-    other = browser.new_page(viewport={"width": 900, "height": 1000})
-    other.set_default_timeout(PATIENCE)
-    open_notebook(other, lab, NOTEBOOK)
-    other.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
-    execute(other, "notebook:run-cell")
-    other.wait_for_selector(".tl-dashboard")
+def test_two_windows_are_in_step(window: Page, neighbour: Page, lab: Lab) -> None:
+    with notebook_in(neighbour, lab, NOTEBOOK, [], width=900, kernels_end=False) as other:
+        other.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
+        execute(other, "notebook:run-cell")
+        other.wait_for_selector(".tl-dashboard")
 
-    window.locator(".tl-log-tools select").select_option("WARN")
-    expect(other.locator(".tl-log-tools select")).to_have_value("WARN")
-    expect(other.locator(".tl-log-line:visible")).to_have_count(0)
-    other.locator(".tl-log-tools select").select_option("INFO")
-    expect(window.locator(".tl-log-line:visible").first).to_be_visible()
-    texts = ".tl-log-text"
-    assert other.locator(texts).all_inner_texts() == window.locator(texts).all_inner_texts()
-    other.close()
+        window.locator(".tl-log-tools select").select_option("WARN")
+        expect(other.locator(".tl-log-tools select")).to_have_value("WARN")
+        expect(other.locator(".tl-log-line:visible")).to_have_count(0)
+        other.locator(".tl-log-tools select").select_option("INFO")
+        expect(window.locator(".tl-log-line:visible").first).to_be_visible()
+        texts = ".tl-log-text"
+        assert other.locator(texts).all_inner_texts() == window.locator(texts).all_inner_texts()
 
 
 def test_a_reader_who_scrolls_up_is_left_alone(window: Page) -> None:

@@ -9,18 +9,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from jupyter_pages import (
-    PATIENCE,
-    Lab,
-    execute,
-    notebook_in,
-    open_notebook,
-    python,
-    serious_violations,
-    value,
-    write_notebook,
-)
-from playwright.sync_api import Browser, Locator, Page, expect
+from jupyter_pages import Lab, execute, notebook_in, python, serious_violations, value, write_notebook
+from playwright.sync_api import Locator, Page, expect
 
 CELLS = (
     """%load_ext turtle_lesson
@@ -269,29 +259,27 @@ def test_obstacles_are_changed_by_numbers_and_keys(pad: Pad) -> None:
     expect(pad.words).to_contain_text("radius must be a number above zero")
 
 
-def test_two_windows_are_in_step(pad: Pad, browser: Browser, lab: Lab) -> None:
-    page = browser.new_page(viewport={"width": 800, "height": 1000})
-    page.set_default_timeout(PATIENCE)
-    open_notebook(page, lab, NAME)
-    page.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
-    page.evaluate(
-        "() => { window.jupyterapp.shell.currentWidget.content.activeCell.model.sharedModel.setSource('pad') }"
-    )
-    execute(page, "notebook:run-cell")
-    page.wait_for_selector(".tl-map")
-    other = Pad(page)
-    expect(page.get_by_label("Speed of robot time")).to_have_value("10")
-    other.choose_speed("20")
-    expect(pad.page.get_by_label("Speed of robot time")).to_have_value("20")
-    other.click(9.0, 9.0)
-    for each in (pad, other):
-        expect(each.states).to_have_text(["reached"])
-    pad.button("Pause").click()
-    for each in (pad, other):
-        expect(each.button("Play")).to_be_visible()
-    dials = ".tl-dial dd"
-    assert page.locator(dials).all_inner_texts() == pad.page.locator(dials).all_inner_texts()
-    page.close()
+def test_two_windows_are_in_step(pad: Pad, neighbour: Page, lab: Lab) -> None:
+    with notebook_in(neighbour, lab, NAME, [], width=800, kernels_end=False) as page:
+        page.evaluate("""() => {
+          const { content } = window.jupyterapp.shell.currentWidget;
+          content.activeCellIndex = 2;
+          content.activeCell.model.sharedModel.setSource('pad');
+        }""")
+        execute(page, "notebook:run-cell")
+        page.wait_for_selector(".tl-map")
+        other = Pad(page)
+        expect(page.get_by_label("Speed of robot time")).to_have_value("10")
+        other.choose_speed("20")
+        expect(pad.page.get_by_label("Speed of robot time")).to_have_value("20")
+        other.click(9.0, 9.0)
+        for each in (pad, other):
+            expect(each.states).to_have_text(["reached"])
+        pad.button("Pause").click()
+        for each in (pad, other):
+            expect(each.button("Play")).to_be_visible()
+        dials = ".tl-dial dd"
+        assert page.locator(dials).all_inner_texts() == pad.page.locator(dials).all_inner_texts()
 
 
 def test_it_fits_into_small_and_large_windows(pad: Pad) -> None:

@@ -24,8 +24,8 @@ LONGEST = 300_000
 
 @pytest.fixture(scope="module")
 def folder(lab: Lab) -> Path:
-    """A learner's folder, in the one that JupyterLab serves."""
-    folder = lab.folder / "my-lesson"
+    """A learner's folder in which nothing was done yet, in the one that JupyterLab serves."""
+    folder = lab.folder / "new"
     LearnersFolder(folder).update()
     return folder
 
@@ -33,7 +33,7 @@ def folder(lab: Lab) -> Path:
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_is_played_from_empty_cells_to_right_answers(desktop: Page, lab: Lab, folder: Path, name: str) -> None:
     problems: list[str] = []
-    with notebook_in(desktop, lab, f"my-lesson/{name}.ipynb", problems) as page:
+    with notebook_in(desktop, lab, f"new/{name}.ipynb", problems) as page:
         play(page, folder / f"{name}.ipynb")
     assert problems == []
 

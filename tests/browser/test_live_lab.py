@@ -9,21 +9,11 @@ import math
 import re
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
-from jupyter_pages import (
-    Lab,
-    choose_theme,
-    execute,
-    new_window,
-    notebook_in,
-    open_notebook,
-    python,
-    serious_violations,
-    value,
-    write_notebook,
-)
-from playwright.sync_api import Browser, Locator, Page, expect
+from jupyter_pages import Lab, choose_theme, execute, notebook_in, python, serious_violations, value, write_notebook
+from playwright.sync_api import Locator, Page, expect
 
 WATCHES = '''
 import os, threading
@@ -191,6 +181,23 @@ def test_without_a_navigator_it_says_so_and_how_to_start_one(board: Board) -> No
     expect(board.root.locator(".tl-light-missing")).to_have_count(0)
 
 
+def test_all_of_it_can_be_used_by_all(board: Board) -> None:
+    page, size = board.page, board.page.viewport_size
+    assert size is not None
+    python(page, "for x in (2.0, 9.0): lesson.dashboard().desk.send(x, 5.0, 0.0)\nlesson.run(1)")
+    expect(board.states).to_contain_text(["busy", "on its way", "not sent", "reached"])
+    page.set_viewport_size({"width": size["width"], "height": 6500})  # axe-core looks at no text that is out of sight
+    for name in WIDGETS:
+        widget(page, name).evaluate("root => root.setAttribute('data-looked-at', '')")
+    for looked_at in (found := page.locator("[data-looked-at]")).all():
+        assert (box := looked_at.bounding_box()) is not None and 0 <= box["y"] < 6500 - box["height"]
+    expect(found).to_have_count(len(WIDGETS))
+    for theme in ("Dark", "Light"):
+        choose_theme(page, theme)
+        assert (theme, serious_violations(page, "[data-looked-at]")) == (theme, [])
+    page.set_viewport_size(size)
+
+
 def test_fifty_clicks_in_a_second_while_time_goes_on(board: Board) -> None:
     sent = value(board.page, "len(lesson.dashboard().desk.goals)")
     clicks = """canvas => new Promise(done => {
@@ -207,6 +214,8 @@ def test_fifty_clicks_in_a_second_while_time_goes_on(board: Board) -> None:
     board.root.locator(".tl-map").evaluate(clicks)
     expect(board.root.locator(".tl-goal-busy").first).to_be_attached()
     expect(board.states).to_have_count(min(sent + 50, 60))
+    board.pause()
+    python(board.page, "lesson.run(20)")  # to the end of the last trip, without a frame for each moment
     expect(board.root.locator(".tl-goal-on-its-way")).to_have_count(0)
     new = value(board.page, f"[(each.number, each.x, each.state) for each in lesson.dashboard().desk.goals[{sent}:]]")
     assert [number for number, _, _ in new] == list(range(sent + 1, sent + 51))
@@ -225,42 +234,41 @@ def test_fifty_steps_in_a_second_are_fifty_steps(board: Board) -> None:
     assert value(board.page, "lesson.now") == pytest.approx(begun + 5)
 
 
-def second_window(browser: Browser, lab: Lab, problems: list[str]) -> Page:
+@contextmanager
+def second_window(page: Page, lab: Lab, problems: list[str]) -> Iterator[Page]:
     """A window that has opened the saved page and shows its dashboard.
 
     JupyterLab gives a widget up for good if its kernel tells of it just as the two seconds end that JupyterLab waits for
-    it, which happens on a busy machine (renderModel of jupyterlab-manager). Such a window is closed and opened again.
+    it, which happens on a busy machine (renderModel of jupyterlab-manager). Then the page is closed and opened again.
     """
     for _ in range(20):
-        page = new_window(browser, problems, width=900)
-        open_notebook(page, lab, NAME)
-        given_up = page.get_by_text("Error displaying widget: model not found")
-        given_up.or_(page.locator(WIDGETS["Dashboard"][1])).first.wait_for(state="attached")
-        problems[:] = [problem for problem in problems if not problem.startswith("Error: widget model not found")]
-        if given_up.count() == 0:
-            return page
-        page.close()
+        with notebook_in(page, lab, NAME, problems, width=900, kernels_end=False):
+            given_up = page.get_by_text("Error displaying widget: model not found")
+            given_up.or_(page.locator(WIDGETS["Dashboard"][1])).first.wait_for(state="attached")
+            problems[:] = [problem for problem in problems if not problem.startswith("Error: widget model not found")]
+            if given_up.count() == 0:
+                yield page
+                return
     raise AssertionError("JupyterLab gave up the widgets of twenty windows")
 
 
 def test_a_window_that_opens_the_saved_page_is_in_step(
-    board: Board, browser: Browser, lab: Lab, problems: list[str]
+    board: Board, neighbour: Page, lab: Lab, problems: list[str]
 ) -> None:
     execute(board.page, "docmanager:save")
-    page = second_window(browser, lab, problems)
-    other = Board(page)  # which no cell had to be run for
-    expect(other.states).to_have_text(board.states.all_inner_texts())
-    other.click(9.0, 9.0)
-    for each in (board, other):
-        expect(each.states.first).to_have_text("reached")
-        expect(each.button("Pause")).to_be_visible()
-    board.button("Pause").click()
-    expect(other.button("Play")).to_be_visible()
-    other.choose_speed("20")
-    expect(board.root.get_by_label("Speed of robot time")).to_have_value("20")
-    assert other.dials.all_inner_texts() == board.dials.all_inner_texts()
-    assert other.answers.all_inner_texts() == board.answers.all_inner_texts()
-    page.close()
+    with second_window(neighbour, lab, problems) as page:
+        other = Board(page)  # which no cell had to be run for
+        expect(other.states).to_have_text(board.states.all_inner_texts())
+        other.click(9.0, 9.0)
+        for each in (board, other):
+            expect(each.states.first).to_have_text("reached")
+            expect(each.button("Pause")).to_be_visible()
+        board.button("Pause").click()
+        expect(other.button("Play")).to_be_visible()
+        other.choose_speed("20")
+        expect(board.root.get_by_label("Speed of robot time")).to_have_value("20")
+        assert other.dials.all_inner_texts() == board.dials.all_inner_texts()
+        assert other.answers.all_inner_texts() == board.answers.all_inner_texts()
 
 
 def test_all_orders_are_carried_out_in_the_main_thread_wherever_they_arrive(board: Board) -> None:
@@ -278,22 +286,6 @@ def test_all_orders_are_carried_out_in_the_main_thread_wherever_they_arrive(boar
     assert value(page, "set(carried_out)") == set(WIDGETS), "every widget had orders"
     assert value(page, "set().union(*carried_out.values())") == {True}
     assert value(page, "False in set().union(*arrived.values())"), "some orders came through another thread"
-
-
-@pytest.mark.parametrize("theme", ["Light", "Dark"])
-def test_all_of_it_can_be_used_by_all(board: Board, theme: str) -> None:
-    page, size = board.page, board.page.viewport_size
-    assert size is not None
-    choose_theme(page, theme)
-    page.set_viewport_size({"width": size["width"], "height": 6500})  # axe-core looks at no text that is out of sight
-    for name in WIDGETS:
-        widget(page, name).evaluate("root => root.setAttribute('data-looked-at', '')")
-    for looked_at in (found := page.locator("[data-looked-at]")).all():
-        assert (box := looked_at.bounding_box()) is not None and 0 <= box["y"] < 6500 - box["height"]
-    expect(found).to_have_count(len(WIDGETS))
-    assert serious_violations(page, "[data-looked-at]") == []
-    page.set_viewport_size(size)
-    choose_theme(page, "Light")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="sockets are read from /proc")
