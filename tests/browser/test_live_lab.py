@@ -198,42 +198,6 @@ def test_all_of_it_can_be_used_by_all(board: Board) -> None:
     page.set_viewport_size(size)
 
 
-def test_fifty_clicks_in_a_second_while_time_goes_on(board: Board) -> None:
-    sent = value(board.page, "len(lesson.dashboard().desk.goals)")
-    clicks = """canvas => new Promise(done => {
-      canvas.setPointerCapture = () => {};
-      let clicked = 0;
-      const timer = setInterval(() => {
-        const frame = canvas.getBoundingClientRect();
-        const place = { clientX: frame.left + 40 + 4 * clicked, clientY: frame.top + 200, pointerId: 1, bubbles: true };
-        for (const name of ['pointerdown', 'pointerup']) canvas.dispatchEvent(new PointerEvent(name, place));
-        if (++clicked === 50) clearInterval(timer), delete canvas.setPointerCapture, done();
-      }, 20);
-    })"""
-    board.button("Play").click()
-    board.root.locator(".tl-map").evaluate(clicks)
-    expect(board.root.locator(".tl-goal-busy").first).to_be_attached()
-    expect(board.states).to_have_count(min(sent + 50, 60))
-    board.pause()
-    python(board.page, "lesson.run(20)")  # to the end of the last trip, without a frame for each moment
-    expect(board.root.locator(".tl-goal-on-its-way")).to_have_count(0)
-    new = value(board.page, f"[(each.number, each.x, each.state) for each in lesson.dashboard().desk.goals[{sent}:]]")
-    assert [number for number, _, _ in new] == list(range(sent + 1, sent + 51))
-    assert [x for _, x, _ in new] == sorted({x for _, x, _ in new}), "each once, and in their order"
-    assert {state for _, _, state in new} == {"reached", "busy"}
-
-
-def test_fifty_steps_in_a_second_are_fifty_steps(board: Board) -> None:
-    begun = value(board.page, "lesson.now")
-    expect(board.button("Step 0.1 s")).to_be_enabled()
-    board.button("Step 0.1 s").evaluate("""button => new Promise(done => {
-      let clicked = 0;
-      const timer = setInterval(() => (button.click(), ++clicked === 50 && (clearInterval(timer), done())), 20);
-    })""")
-    expect(board.dials.first).to_have_text(f"{begun + 5:.1f} s")
-    assert value(board.page, "lesson.now") == pytest.approx(begun + 5)
-
-
 @contextmanager
 def second_window(page: Page, lab: Lab, problems: list[str]) -> Iterator[Page]:
     """A window that has opened the saved page and shows its dashboard.
@@ -292,6 +256,42 @@ def test_all_orders_are_carried_out_in_the_main_thread_wherever_they_arrive(boar
 def test_nothing_listens_on_a_new_port(window: Page) -> None:
     assert value(window, "len(waited_before)") > 0, "a kernel listens, so the look at sockets works"
     assert value(window, "sockets_that_wait() - waited_before") == set()
+
+
+def test_fifty_clicks_in_a_second_while_time_goes_on(board: Board) -> None:
+    sent = value(board.page, "len(lesson.dashboard().desk.goals)")
+    clicks = """canvas => new Promise(done => {
+      canvas.setPointerCapture = () => {};
+      let clicked = 0;
+      const timer = setInterval(() => {
+        const frame = canvas.getBoundingClientRect();
+        const place = { clientX: frame.left + 40 + 4 * clicked, clientY: frame.top + 200, pointerId: 1, bubbles: true };
+        for (const name of ['pointerdown', 'pointerup']) canvas.dispatchEvent(new PointerEvent(name, place));
+        if (++clicked === 50) clearInterval(timer), delete canvas.setPointerCapture, done();
+      }, 20);
+    })"""
+    board.button("Play").click()
+    board.root.locator(".tl-map").evaluate(clicks)
+    expect(board.root.locator(".tl-goal-busy").first).to_be_attached()
+    expect(board.states).to_have_count(min(sent + 50, 60))
+    board.pause()
+    python(board.page, "lesson.run(20)")  # to the end of the last trip, without a frame for each moment
+    expect(board.root.locator(".tl-goal-on-its-way")).to_have_count(0)
+    new = value(board.page, f"[(each.number, each.x, each.state) for each in lesson.dashboard().desk.goals[{sent}:]]")
+    assert [number for number, _, _ in new] == list(range(sent + 1, sent + 51))
+    assert [x for _, x, _ in new] == sorted({x for _, x, _ in new}), "each once, and in their order"
+    assert {state for _, _, state in new} == {"reached", "busy"}
+
+
+def test_fifty_steps_in_a_second_are_fifty_steps(board: Board) -> None:
+    begun = value(board.page, "lesson.now")
+    expect(board.button("Step 0.1 s")).to_be_enabled()
+    board.button("Step 0.1 s").evaluate("""button => new Promise(done => {
+      let clicked = 0;
+      const timer = setInterval(() => (button.click(), ++clicked === 50 && (clearInterval(timer), done())), 20);
+    })""")
+    expect(board.dials.first).to_have_text(f"{begun + 5:.1f} s")
+    assert value(board.page, "lesson.now") == pytest.approx(begun + 5)
 
 
 def test_a_restart_and_run_all_brings_all_of_it_back(board: Board, problems: list[str]) -> None:
