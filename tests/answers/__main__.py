@@ -26,7 +26,7 @@ os.environ["TURTLE_LESSON_PROGRESS"] = "off"
 
 from turtle_lesson.lab.checks import navigation, page_10, probe
 from turtle_lesson.lab.checks.registry import all_checks
-from turtle_lesson.lab.picture import Picture
+from turtle_lesson.lab.drawing import Picture
 from turtle_lesson.ros.sim import interrupts
 
 from . import restart, stopped
