@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import contextlib
 import gc
-import importlib
 import json
 import os
 import socket
@@ -30,7 +29,7 @@ from turtle_lesson.lab.drawing import Picture
 from turtle_lesson.ros.sim import interrupts
 
 from . import restart, stopped
-from .server import Kept, Page, results, serve, the_shell
+from .server import Kept, Page, import_what_these_import, results, serve, the_shell
 
 PATIENCE = 1.0
 """CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
@@ -44,17 +43,25 @@ LONGEST = 50.0
 MINUTES = 2.0
 """For how long the whole system of page 10 works here; the page itself shows that its solution does for five."""
 
-IMPORTS = (
-    "launch_ros.actions",
-    "matplotlib.backends.backend_agg",
-    "matplotlib.figure",
-    "rclpy",
-    "turtle_lesson.lab.progress",
-    "turtle_lesson.lab.widgets.dashboard",
-    "turtle_lesson.session.check_target",
-    "turtle_lesson.session.lesson",
+WARM_UP = (
+    "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)\nlesson.run(0.1)",
+    "import rclpy, tf2_ros, launch_ros.actions\nlesson.launch('robot_controller', 'start_system.launch.py')\nlesson.run(0.2)",
+    "ros2 node list\nros2 topic echo --once /turtle1/pose\nros2 param list\nros2 pkg list",
+    "ros2 service call /reset std_srvs/srv/Empty\nros2 run turtlesim turtlesim_node",
+    "lesson.plot_path()",
+    "lesson.plot_timeline('/turtle1/pose')",
+    "lesson.plot_status()",
+    "lesson.plot_scan()",
+    "lesson.predict('q', question='How far?', choices=['a', 'b'])",
+    "display(lesson.dashboard(), lesson.scene(), lesson.goal_pad(), lesson.teleop(), lesson.form('/reset'))",
+    "lesson.check('face_up')",
+    "from std_msgs.msg import Bool, Float32, Int32, String\nfrom std_srvs.srv import Trigger",
+    "lesson = start(seed=0, page='06_parameters_and_launch', package='mine')",
+    "open('program.py', 'w').close()\n%run program.py",
+    "1 / 0",
+    "from turtle_lesson.experiments import experiment\nfrom turtle_lesson.session import check_target",
 )
-"""What most pages import: once here, instead of once a page."""
+"""Cells in which most of what pages import is imported: once, instead of once a page and answer."""
 
 
 def draw_no_pictures() -> None:
@@ -94,9 +101,8 @@ def main() -> None:
     interrupts.patience = PATIENCE
     probe.WORK, navigation.LONGEST, page_10.MINUTES = WORK, LONGEST, MINUTES
     the_shell()
-    for name in IMPORTS:
-        importlib.import_module(name)
     all_checks()
+    import_what_these_import(WARM_UP)
     os.dup2(2, 1)  # what is printed belongs to the log
     gc.freeze()
     with socket.socket(fileno=int(sys.argv[1])) as listener:

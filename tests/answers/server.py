@@ -9,13 +9,16 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import importlib
 import io
 import json
 import os
 import resource
 import shutil
+import sys
+import tempfile
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
@@ -207,6 +210,30 @@ def forked(job: Callable[[], str]) -> tuple[str, int]:
         said = stream.read()
     _, status = os.waitpid(child, 0)
     return said, status
+
+
+def import_what_these_import(cells: Sequence[str]) -> None:
+    """Import here what cells import in a fork of this process, so that no later fork has to."""
+    before = set(sys.modules)
+
+    def names() -> str:
+        shell = the_shell()
+        with tempfile.TemporaryDirectory() as folder:
+            os.environ["TURTLE_LESSON_FOLDER"] = folder
+            os.chdir(folder)
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+                for cell in cells:
+                    shell.run_cell(cell)
+            os.chdir("/")
+        return "\n".join(
+            name for name in sys.modules if name not in before and name.partition(".")[0] != "robot_controller"
+        )
+
+    said, status = forked(names)
+    assert status == 0, said
+    for name in said.splitlines():
+        with contextlib.suppress(ImportError):  # a program's own
+            importlib.import_module(name)
 
 
 def _state(folder: Path) -> dict[str, tuple[int, int]]:
