@@ -311,27 +311,23 @@ def describe(args: Namespace) -> None:
     with direct_node(args) as node:
         name = find_node(node, args)
         descriptors = _ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors
-        for descriptor in descriptors:
-            _print_descriptor(descriptor)
+        for each in descriptors:
+            print(f"Parameter name: {each.name}")
+            print(f"  Type: {TYPES[each.type][0]}")
+            if each.description:
+                print(f"  Description: {each.description}")
+            print("  Constraints:")
+            if each.read_only:
+                print("    Read only: true")
+            for limits in [*each.floating_point_range, *each.integer_range][:1]:
+                print(f"    Min value: {limits.from_value}")
+                print(f"    Max value: {limits.to_value}")
+                if limits.step:
+                    print(f"    Step: {limits.step}")
+            if each.additional_constraints:
+                print(f"    Additional constraints: {each.additional_constraints}")
         if not descriptors:
             known = listed(node, name)
             for each in args.parameter_names:
                 if each not in known:
                     print(f"{name} has no parameter '{each}'\n{suggest(each, known)}".rstrip(), file=sys.stderr)
-
-
-def _print_descriptor(descriptor: Any) -> None:
-    print(f"Parameter name: {descriptor.name}")
-    print(f"  Type: {TYPES[descriptor.type][0]}")
-    if descriptor.description:
-        print(f"  Description: {descriptor.description}")
-    print("  Constraints:")
-    if descriptor.read_only:
-        print("    Read only: true")
-    for limits in [*descriptor.floating_point_range, *descriptor.integer_range][:1]:
-        print(f"    Min value: {limits.from_value}")
-        print(f"    Max value: {limits.to_value}")
-        if limits.step:
-            print(f"    Step: {limits.step}")
-    if descriptor.additional_constraints:
-        print(f"    Additional constraints: {descriptor.additional_constraints}")

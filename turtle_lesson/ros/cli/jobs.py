@@ -45,10 +45,6 @@ class Jobs:
         self._jobs = [job for job in self._jobs if job.running]
         return list(self._jobs)
 
-    def get(self, number: int) -> Job | None:
-        """The running job of this number."""
-        return next((job for job in self.running if job.number == number), None)
-
 
 @dataclass
 class Job:

@@ -182,7 +182,16 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
         elif token.text == "2>&1":
             command.stderr = TO_STDOUT
         elif token.text in {">", ">>", "2>", "&>", "<"}:
-            _redirect(command, token.text, next(rest))
+            file = next(rest)
+            if not isinstance(file, Word):
+                raise ShellSyntaxError(f"{'<' if token.text == '<' else '>'!r} needs the name of a file")
+            if token.text == "<":
+                command.stdin = file
+            elif token.text == "2>":
+                command.stderr = file
+            else:
+                command.stdout = (token.text, file)
+                command.stderr = TO_STDOUT if token.text == "&>" else command.stderr
         elif command.words and token.text == "|":
             pipeline.append(Command())
         elif command.words:
@@ -195,19 +204,6 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
             raise ShellSyntaxError("there is no command after '|'")
     if condition:
         raise ShellSyntaxError(f"there is no command after {condition!r}")
-
-
-def _redirect(command: Command, sign: str, file: Token) -> None:
-    """Have a command read or write the file that is named behind a sign such as `>`."""
-    if not isinstance(file, Word):
-        raise ShellSyntaxError(f"{'<' if sign == '<' else '>'!r} needs the name of a file")
-    if sign == "<":
-        command.stdin = file
-    elif sign == "2>":
-        command.stderr = file
-    else:
-        command.stdout = (sign, file)
-        command.stderr = TO_STDOUT if sign == "&>" else command.stderr
 
 
 # -- what a word stands for --------------------------------------------------------------------------------------------

@@ -342,7 +342,7 @@ def kill(terminal: Terminal, words: list[str]) -> int:
 def _kill_one(terminal: Terminal, word: str, name: str) -> int:
     target: Job | Process | None = None
     if re.fullmatch(r"%\d{1,9}", word):
-        target = jobs(terminal.world).get(int(word[1:]))
+        target = next((job for job in jobs(terminal.world).running if job.number == int(word[1:])), None)
     elif re.fullmatch(r"\d{1,9}", word):
         target = next((each for each in terminal.world.processes if each.alive and each.pid == int(word)), None)
     else:

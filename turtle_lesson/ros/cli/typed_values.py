@@ -51,15 +51,6 @@ def _find(get: Callable[[str], Any], name: str) -> Any:
         return None
 
 
-def unknown_type(name: str, folder: str) -> str:
-    """A line about a type that does not exist, or that was typed in its short form; nothing for one that does."""
-    from rosidl_runtime_py.utilities import get_interface
-
-    if name.count("/") == 2 and _find(get_interface, name) is not None:
-        return ""
-    return f"There is no type '{name}'\n{suggest_type(name, folder)}".rstrip()
-
-
 def suggest_type(name: str, folder: str) -> str:
     """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type is like that."""
     known = [each for each in interface_names() if each.split("/")[1] == folder]
@@ -194,14 +185,17 @@ def add_verbs(
 
     @verb(f"{kind} find", *common, wanted, *list_arguments(kind, "find"), help_text=f"The {kind}s of a type")
     def print_found(args: Namespace) -> None:
+        from rosidl_runtime_py.utilities import get_interface
+
         type_name = getattr(args, f"{kind}_type")
         found = [name for name, types in chosen(args).items() if type_name in types]
         if getattr(args, f"count_{kind}s"):
             print(len(found))
         elif found:
             print(*found, sep="\n")
-        elif about := unknown_type(type_name, folder):
-            print(about, file=sys.stderr)
+        elif type_name.count("/") != 2 or _find(get_interface, type_name) is None:  # none, or typed in its short form
+            hint = suggest_type(type_name, folder)
+            print(f"There is no type '{type_name}'\n{hint}".rstrip(), file=sys.stderr)
 
 
 # -- quality of service ----------------------------------------------------------------------------------------------
