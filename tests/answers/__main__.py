@@ -31,16 +31,16 @@ from turtle_lesson.ros.sim import interrupts
 from . import restart, stopped
 from .server import Kept, Page, import_what_these_import, results, serve, the_shell
 
-PATIENCE = 1.0
+PATIENCE = 0.5
 """CPU time, s, after which a callback that lets no time pass is stopped: less than a learner is given, for the tests' sake."""
 
-WORK = 3.0
+WORK = 2.0
 """CPU time, s, that a check may take here: three times what the longest one needs."""
 
 LONGEST = 50.0
 """Robot time, s, that one drive may take here: the longest that is answered takes 47 s."""
 
-MINUTES = 2.0
+MINUTES = 1.0
 """For how long the whole system of page 10 works here; the page itself shows that its solution does for five."""
 
 WARM_UP = (
