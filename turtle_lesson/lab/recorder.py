@@ -75,13 +75,7 @@ class Recorder(Recording):
     where nothing was heard.
     """
 
-    def __init__(
-        self,
-        node: Node,
-        *,
-        origin: int | None = None,
-        advice: Advice = IN_A_LESSON,
-    ) -> None:
+    def __init__(self, node: Node, *, origin: int | None = None, advice: Advice = IN_A_LESSON) -> None:
         if origin is None:
             origin = node.get_clock().now().nanoseconds
         super().__init__(origin=origin)

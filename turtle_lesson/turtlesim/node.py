@@ -54,7 +54,16 @@ class TurtlesimNode(Node):
 
     def __init__(self) -> None:
         super().__init__("turtlesim")
-        self._declare_background()
+        for letter, (colour, value) in BACKGROUND.items():
+            descriptor = ParameterDescriptor(
+                description=f"{colour} channel of the background color",
+                integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],
+            )
+            self.declare_parameter(f"background_{letter}", value, descriptor)
+        quality = QoSProfile(
+            depth=100, reliability=ReliabilityPolicy.BEST_EFFORT
+        )  # the real one repaints its window then
+        self.create_subscription(ParameterEvent, "/parameter_events", lambda _event: None, quality)
         self.create_service(Empty, "clear", self._on_clear)
         self.create_service(Empty, "reset", self._on_reset)
         self.create_service(Spawn, "spawn", self._on_spawn)
@@ -127,17 +136,6 @@ class TurtlesimNode(Node):
         self._shown[turtle.name] = ShownTurtle(self, turtle, self._turning)
         theta = turtle.theta
         self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
-
-    def _declare_background(self) -> None:
-        """Declare background_r, _g and _b, and listen for their changes as the real one does to repaint its window."""
-        for letter, (colour, value) in BACKGROUND.items():
-            descriptor = ParameterDescriptor(
-                description=f"{colour} channel of the background color",
-                integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],
-            )
-            self.declare_parameter(f"background_{letter}", value, descriptor)
-        quality = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self.create_subscription(ParameterEvent, "/parameter_events", lambda _event: None, quality)
 
 
 class ShownTurtle:

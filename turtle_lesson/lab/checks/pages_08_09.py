@@ -213,10 +213,7 @@ def topic_case() -> list[Expectation]:
 
 
 @check(
-    LAB,
-    points=3,
-    limit=CASE,
-    learnt="A call needs a node, a service of the same name, and a callback that is called.",
+    LAB, points=3, limit=CASE, learnt="A call needs a node, a service of the same name, and a callback that is called."
 )
 def service_case() -> list[Expectation]:
     """A navigator that answers its calls."""

@@ -20,12 +20,7 @@ from .backend import DISCOVERY, Backend, in_a_moment
 from .live_widget import LiveWidget
 from .message_fields import read_float, read_integer
 
-SERVICES = {
-    "list": "ListParameters",
-    "describe": "DescribeParameters",
-    "get": "GetParameters",
-    "set": "SetParameters",
-}
+SERVICES = {"list": "ListParameters", "describe": "DescribeParameters", "get": "GetParameters", "set": "SetParameters"}
 """What is asked of the node, and the type of each service in rcl_interfaces; its name is /node/<what>_parameters."""
 
 
