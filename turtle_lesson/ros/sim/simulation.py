@@ -421,8 +421,9 @@ class Simulation(Face):
                 carrier.strand = strand
                 carrier.gr_context = strand.context
             strand.body = carrier
+            turn = strand.turn
             try:
-                waits = strand.turn()
+                waits = turn()
             except BaseException as error:
                 strand.failure, waits = error, False
             if waits:
