@@ -371,9 +371,7 @@ class Simulation(Face):
         if strand and (strand.body is not None or self._idle_carriers):
             self._go_on_with(strand)
             return
-        if (
-            strand is not None
-        ):  # what begins here, this strand or a carrier, would count the calls on this stack as its own
+        if strand is not None:  # what begins here, it or a carrier, would count the calls on this stack as its own
             self._ready.appendleft(strand)
         self.hub.switch()
 
