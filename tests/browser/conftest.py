@@ -38,7 +38,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
 
 
 class Chromium:
-    """A headless browser with windows: opened by the first test that wants them, and closed after the last one.
+    """A headless browser with a window: opened by the first test that wants it, and closed after the last one.
 
     While Playwright runs, so does an event loop of its own, so it is not kept for tests of other folders.
     """
@@ -46,7 +46,7 @@ class Chromium:
     def __init__(self) -> None:
         self._open = ExitStack()
         self._browser: Browser | None = None
-        self._windows: dict[str, Page] = {}
+        self._window: Page | None = None
 
     def browser(self, path: str) -> Browser:
         """The browser."""
@@ -56,17 +56,16 @@ class Chromium:
             self._open.callback(self._browser.close)
         return self._browser
 
-    def window(self, path: str, name: str) -> Page:
-        """One of its windows, which the tests of one file after the other use."""
-        if name not in self._windows:
-            self._windows[name] = self.browser(path).new_page()
-            self._windows[name].set_default_timeout(PATIENCE)
-        return self._windows[name]
+    def window(self, path: str) -> Page:
+        """Its window, which the tests of one file after the other use."""
+        if self._window is None:
+            self._window = self.browser(path).new_page()
+            self._window.set_default_timeout(PATIENCE)
+        return self._window
 
     def close(self) -> None:
         """Close it; who asks for it again gets a new one."""
-        self._browser = None
-        self._windows.clear()
+        self._browser = self._window = None
         self._open.close()
 
 
@@ -92,13 +91,7 @@ def browser(chromium: str) -> Browser:
 @pytest.fixture(scope="module")
 def desktop(chromium: str) -> Page:
     """The window that all files share; `notebook_in` opens a notebook there."""
-    return _chromium.window(chromium, "desktop")
-
-
-@pytest.fixture(scope="module")
-def neighbour(chromium: str) -> Page:
-    """A second one, that shares nothing with the first: as somebody else's, who looks at the same notebook."""
-    return _chromium.window(chromium, "neighbour")
+    return _chromium.window(chromium)
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Frame, Page
+from playwright.sync_api import Browser, Frame, Page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = [
@@ -129,14 +129,20 @@ def listeners(problems: list[str]) -> dict[str, Callable[[Any], None]]:
     }
 
 
+def new_window(browser: Browser, problems: list[str], width: int = 1280) -> Page:
+    """A window of its own; what the browser complains of there is added to `problems`."""
+    page = browser.new_page(viewport={"width": width, "height": 1000})
+    page.set_default_timeout(PATIENCE)
+    for event, listener in listeners(problems).items():
+        page.on(event, listener)  # type: ignore[call-overload]
+    return page
+
+
 @contextmanager
-def notebook_in(
-    page: Page, lab: Lab, name: str, problems: list[str], width: int = 1280, kernels_end: bool = True
-) -> Iterator[Page]:
+def notebook_in(page: Page, lab: Lab, name: str, problems: list[str], width: int = 1280) -> Iterator[Page]:
     """A window with a notebook. It may show JupyterLab already, which takes seconds to load; afterwards it is empty again.
 
-    What the browser complains of meanwhile is added to `problems`. Then the server's kernels end, unless another window goes
-    on with them.
+    What the browser complains of meanwhile is added to `problems`.
     """
     hear = listeners(problems)
     page.set_viewport_size({"width": width, "height": 1000})
@@ -148,9 +154,7 @@ def notebook_in(
     finally:
         for event, listener in hear.items():
             page.remove_listener(event, listener)
-        close_documents(page)
-        if kernels_end:
-            page.evaluate("() => window.jupyterapp.serviceManager.sessions.shutdownAll()")
+        close_all(page)
 
 
 def write_notebook(lab: Lab, name: str, cells: Sequence[str]) -> None:
@@ -178,14 +182,15 @@ def open_notebook(page: Page, lab: Lab, name: str) -> None:
     page.wait_for_function(f"{KERNEL}?.status === 'idle'")
 
 
-def close_documents(page: Page) -> None:
-    """Close all documents of a window, unsaved."""
+def close_all(page: Page) -> None:
+    """Close all documents of a window, unsaved, and end all kernels of the server."""
     choose_theme(page, "Light")
-    page.evaluate("""() => {
+    page.evaluate("""async () => {
       for (const each of Array.from(window.jupyterapp.shell.widgets('main'))) {
         if (each.context) each.context.model.dirty = false;
         each.close();
       }
+      await window.jupyterapp.serviceManager.sessions.shutdownAll();
     }""")
 
 
@@ -216,8 +221,10 @@ def value(page: Page, expression: str) -> Any:
 
 def choose_theme(page: Page, theme: str) -> None:
     """Show JupyterLab's pages "Light" or "Dark"."""
-    execute(page, "apputils:change-theme", {"theme": f"JupyterLab {theme}"})
-    page.wait_for_function("theme => document.body.dataset.jpThemeName === theme", arg=f"JupyterLab {theme}")
+    wanted = f"JupyterLab {theme}"
+    if page.evaluate("() => document.body.dataset.jpThemeName") != wanted:
+        execute(page, "apputils:change-theme", {"theme": wanted})
+        page.wait_for_function("theme => document.body.dataset.jpThemeName === theme", arg=wanted)
 
 
 def serious_violations(page: Page | Frame, selector: str) -> list[tuple[str, list[str]]]:

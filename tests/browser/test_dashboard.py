@@ -1,4 +1,4 @@
-"""The dashboard in JupyterLab: the page with nothing but it, its log, and two windows that stay in step."""
+"""The dashboard in JupyterLab: the page with nothing but it, and its log."""
 
 from __future__ import annotations
 
@@ -44,21 +44,6 @@ def test_status_and_log_run_when_time_does(window: Page) -> None:
     expect(battery).not_to_have_text(before)
     expect(window.locator(".tl-log-line").first).to_contain_text("Starting turtlesim")
     window.get_by_role("button", name="Pause").click()
-
-
-def test_two_windows_are_in_step(window: Page, neighbour: Page, lab: Lab) -> None:
-    with notebook_in(neighbour, lab, NOTEBOOK, [], width=900, kernels_end=False) as other:
-        other.evaluate("() => { window.jupyterapp.shell.currentWidget.content.activeCellIndex = 2 }")
-        execute(other, "notebook:run-cell")
-        other.wait_for_selector(".tl-dashboard")
-
-        window.locator(".tl-log-tools select").select_option("WARN")
-        expect(other.locator(".tl-log-tools select")).to_have_value("WARN")
-        expect(other.locator(".tl-log-line:visible")).to_have_count(0)
-        other.locator(".tl-log-tools select").select_option("INFO")
-        expect(window.locator(".tl-log-line:visible").first).to_be_visible()
-        texts = ".tl-log-text"
-        assert other.locator(texts).all_inner_texts() == window.locator(texts).all_inner_texts()
 
 
 def test_a_reader_who_scrolls_up_is_left_alone(window: Page) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from jupyter_pages import Lab, execute, notebook_in, python, serious_violations, value, write_notebook
+from jupyter_pages import Lab, choose_theme, execute, notebook_in, python, serious_violations, value, write_notebook
 from playwright.sync_api import Locator, Page, expect
 
 CELLS = (
@@ -259,29 +259,6 @@ def test_obstacles_are_changed_by_numbers_and_keys(pad: Pad) -> None:
     expect(pad.words).to_contain_text("radius must be a number above zero")
 
 
-def test_two_windows_are_in_step(pad: Pad, neighbour: Page, lab: Lab) -> None:
-    with notebook_in(neighbour, lab, NAME, [], width=800, kernels_end=False) as page:
-        page.evaluate("""() => {
-          const { content } = window.jupyterapp.shell.currentWidget;
-          content.activeCellIndex = 2;
-          content.activeCell.model.sharedModel.setSource('pad');
-        }""")
-        execute(page, "notebook:run-cell")
-        page.wait_for_selector(".tl-map")
-        other = Pad(page)
-        expect(page.get_by_label("Speed of robot time")).to_have_value("10")
-        other.choose_speed("20")
-        expect(pad.page.get_by_label("Speed of robot time")).to_have_value("20")
-        other.click(9.0, 9.0)
-        for each in (pad, other):
-            expect(each.states).to_have_text(["reached"])
-        pad.button("Pause").click()
-        for each in (pad, other):
-            expect(each.button("Play")).to_be_visible()
-        dials = ".tl-dial dd"
-        assert page.locator(dials).all_inner_texts() == pad.page.locator(dials).all_inner_texts()
-
-
 def test_it_fits_into_small_and_large_windows(pad: Pad) -> None:
     spill = "root => root.scrollWidth - root.clientWidth"
     for width in (800, 1600):
@@ -293,11 +270,9 @@ def test_it_fits_into_small_and_large_windows(pad: Pad) -> None:
                 assert card.evaluate(spill) <= 1
 
 
-@pytest.mark.parametrize("theme", ["JupyterLab Light", "JupyterLab Dark"])
+@pytest.mark.parametrize("theme", ["Light", "Dark"])
 def test_it_can_be_used_by_all(pad: Pad, theme: str) -> None:
-    change = "theme => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
-    pad.page.evaluate(change, theme)
-    pad.page.wait_for_function("theme => document.body.dataset.jpThemeName === theme", arg=theme)
+    choose_theme(pad.page, theme)
     pad.do(
         "lesson.set_obstacles('three pillars'); pad.do_goal(12.0, 2.0, 0.0); lesson.pause(); lesson.run(1); pad._tick()"
     )

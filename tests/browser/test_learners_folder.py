@@ -6,7 +6,7 @@ This comes before other browser tests, so that the window is loaded once: they g
 from __future__ import annotations
 
 import nbformat
-from jupyter_pages import KERNEL, NOTEBOOK, Lab, close_documents, execute
+from jupyter_pages import KERNEL, NOTEBOOK, Lab, close_all, execute
 from playwright.sync_api import Page
 
 RUN_CELL = "notebook:run-cell-and-select-next"
@@ -35,5 +35,4 @@ def test_page_00_opens_and_works_and_says_what_to_run_after_a_restart(desktop: P
     assert page.locator("text=Jupyter news").count() == 0
 
     page.evaluate("() => { window.jupyterapp.shell.mode = 'single-document'; window.jupyterapp.shell.collapseLeft() }")
-    close_documents(page)
-    page.evaluate("() => window.jupyterapp.serviceManager.sessions.shutdownAll()")
+    close_all(page)

@@ -9,11 +9,21 @@ import math
 import re
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
 
 import pytest
-from jupyter_pages import Lab, choose_theme, execute, notebook_in, python, serious_violations, value, write_notebook
-from playwright.sync_api import Locator, Page, expect
+from jupyter_pages import (
+    Lab,
+    choose_theme,
+    execute,
+    new_window,
+    notebook_in,
+    open_notebook,
+    python,
+    serious_violations,
+    value,
+    write_notebook,
+)
+from playwright.sync_api import Browser, Locator, Page, expect
 
 WATCHES = '''
 import os, threading
@@ -197,47 +207,69 @@ def test_all_of_it_can_be_used_by_all(board: Board) -> None:
     for looked_at in (found := page.locator("[data-looked-at]")).all():
         assert (box := looked_at.bounding_box()) is not None and 0 <= box["y"] < 6500 - box["height"]
     expect(found).to_have_count(len(WIDGETS))
-    for theme in ("Dark", "Light"):
+    for theme in ("Light", "Dark"):
         choose_theme(page, theme)
         assert (theme, serious_violations(page, "[data-looked-at]")) == (theme, [])
     page.set_viewport_size(size)
 
 
-@contextmanager
-def second_window(page: Page, lab: Lab, problems: list[str]) -> Iterator[Page]:
+def second_window(browser: Browser, lab: Lab, problems: list[str]) -> Page:
     """A window that has opened the saved page and shows its dashboard.
 
     JupyterLab gives a widget up for good if its kernel tells of it just as the two seconds end that JupyterLab waits for
-    it, which happens on a busy machine (renderModel of jupyterlab-manager). Then the page is closed and opened again.
+    it, which happens on a busy machine (renderModel of jupyterlab-manager). Such a window is closed and opened again.
     """
     for _ in range(20):
-        with notebook_in(page, lab, NAME, problems, width=900, kernels_end=False):
-            given_up = page.get_by_text("Error displaying widget: model not found")
-            given_up.or_(page.locator(WIDGETS["Dashboard"][1])).first.wait_for(state="attached")
-            problems[:] = [problem for problem in problems if not problem.startswith("Error: widget model not found")]
-            if given_up.count() == 0:
-                yield page
-                return
+        page = new_window(browser, problems, width=900)
+        open_notebook(page, lab, NAME)
+        given_up = page.get_by_text("Error displaying widget: model not found")
+        given_up.or_(page.locator(WIDGETS["Dashboard"][1])).first.wait_for(state="attached")
+        problems[:] = [problem for problem in problems if not problem.startswith("Error: widget model not found")]
+        if given_up.count() == 0:
+            return page
+        page.close()
     raise AssertionError("JupyterLab gave up the widgets of twenty windows")
 
 
 def test_a_window_that_opens_the_saved_page_is_in_step(
-    board: Board, neighbour: Page, lab: Lab, problems: list[str]
+    board: Board, browser: Browser, lab: Lab, problems: list[str]
 ) -> None:
     execute(board.page, "docmanager:save")
-    with second_window(neighbour, lab, problems) as page:
-        other = Board(page)  # which no cell had to be run for
-        expect(other.states).to_have_text(board.states.all_inner_texts())
-        other.click(9.0, 9.0)
-        for each in (board, other):
-            expect(each.states.first).to_have_text("reached")
-            expect(each.button("Pause")).to_be_visible()
-        board.button("Pause").click()
-        expect(other.button("Play")).to_be_visible()
-        other.choose_speed("20")
-        expect(board.root.get_by_label("Speed of robot time")).to_have_value("20")
-        assert other.dials.all_inner_texts() == board.dials.all_inner_texts()
-        assert other.answers.all_inner_texts() == board.answers.all_inner_texts()
+    page = second_window(browser, lab, problems)
+    other = Board(page)  # which no cell had to be run for
+    expect(other.states).to_have_text(board.states.all_inner_texts())
+    expect(other.root.get_by_label("Speed of robot time")).to_have_value("10")
+    other.click(9.0, 9.0)
+    for each in (board, other):
+        expect(each.states.first).to_have_text("reached")
+        expect(each.button("Pause")).to_be_visible()
+    board.button("Pause").click()
+    expect(other.button("Play")).to_be_visible()
+    other.choose_speed("20")
+    expect(board.root.get_by_label("Speed of robot time")).to_have_value("20")
+    assert other.dials.all_inner_texts() == board.dials.all_inner_texts()
+    assert other.answers.all_inner_texts() == board.answers.all_inner_texts()
+
+    pad, others_pad = (widget(each, "GoalPad") for each in (board.page, page))
+    assert others_pad.locator(".tl-goal").all_inner_texts() == pad.locator(".tl-goal").all_inner_texts()
+    assert others_pad.locator(".tl-dial dd").all_inner_texts() == pad.locator(".tl-dial dd").all_inner_texts()
+    expect(others_pad.get_by_label("Speed of robot time")).to_have_value("20")
+
+    page.evaluate(
+        "at => (window.jupyterapp.shell.currentWidget.content.activeCellIndex = at)", len(CELLS) - len(WIDGETS)
+    )
+    other.root.evaluate("root => root.setAttribute('data-old', '')")
+    execute(page, "notebook:run-cell")  # and it has a dashboard of its own
+    page.locator("[data-old]").wait_for(state="detached")
+    lines, tools = ".tl-log-line:visible", ".tl-log-tools select"
+    board.root.locator(tools).select_option("FATAL")
+    expect(other.root.locator(tools)).to_have_value("FATAL")
+    expect(other.root.locator(lines)).to_have_count(0)
+    other.root.locator(tools).select_option("INFO")
+    expect(board.root.locator(lines).first).to_be_visible()
+    expect(other.root.locator(lines).first).to_be_visible()
+    assert other.root.locator(".tl-log-text").all_inner_texts() == board.root.locator(".tl-log-text").all_inner_texts()
+    page.close()
 
 
 def test_all_orders_are_carried_out_in_the_main_thread_wherever_they_arrive(board: Board) -> None:
