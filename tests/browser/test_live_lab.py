@@ -251,9 +251,10 @@ def test_a_window_that_opens_the_saved_page_is_in_step(
     assert other.answers.all_inner_texts() == board.answers.all_inner_texts()
 
     pad, others_pad = (widget(each, "GoalPad") for each in (board.page, page))
+    for each in (pad, others_pad):
+        expect(each.get_by_label("Speed of robot time")).to_have_value("20")
     assert others_pad.locator(".tl-goal").all_inner_texts() == pad.locator(".tl-goal").all_inner_texts()
     assert others_pad.locator(".tl-dial dd").all_inner_texts() == pad.locator(".tl-dial dd").all_inner_texts()
-    expect(others_pad.get_by_label("Speed of robot time")).to_have_value("20")
 
     page.evaluate(
         "at => (window.jupyterapp.shell.currentWidget.content.activeCellIndex = at)", len(CELLS) - len(WIDGETS)
