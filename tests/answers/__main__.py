@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import importlib
 import json
 import os
 import socket
@@ -43,25 +44,30 @@ LONGEST = 50.0
 MINUTES = 1.0
 """For how long the whole system of page 10 works here; the page itself shows that its solution does for five."""
 
+IMPORTS = (
+    "IPython.core.ultratb",
+    "matplotlib.backends.backend_agg",
+    "matplotlib.figure",
+    "stack_data",
+    "turtle_lesson.session",
+)
+"""What takes longest to import."""
+
 WARM_UP = (
     "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)\nlesson.run(0.1)",
     "import rclpy, tf2_ros, launch_ros.actions\nlesson.launch('robot_controller', 'start_system.launch.py')\nlesson.run(0.2)",
-    "ros2 node list\nros2 topic echo --once /turtle1/pose\nros2 param list\nros2 pkg list",
-    "ros2 service call /reset std_srvs/srv/Empty\nros2 run turtlesim turtlesim_node",
-    "lesson.plot_path()",
-    "lesson.plot_timeline('/turtle1/pose')",
-    "lesson.plot_status()",
-    "lesson.plot_scan()",
+    "ros2 node list\nros2 topic echo --once /turtle1/pose\nros2 param list\nros2 run turtlesim turtlesim_node",
+    "ros2 service call /reset std_srvs/srv/Empty",
+    "seen = lesson.plot_path(), lesson.plot_timeline('/turtle1/pose'), lesson.plot_status(), lesson.plot_scan()",
     "lesson.predict('q', question='How far?', choices=['a', 'b'])",
-    "display(lesson.dashboard(), lesson.scene(), lesson.goal_pad(), lesson.teleop(), lesson.form('/reset'))",
+    "shown = lesson.dashboard(), lesson.goal_pad(), lesson.teleop(), lesson.form('/reset')",
     "lesson.check('face_up')",
     "from std_msgs.msg import Bool, Float32, Int32, String\nfrom std_srvs.srv import Trigger",
     "lesson = start(seed=0, page='06_parameters_and_launch', package='mine')",
-    "open('program.py', 'w').close()\n%run program.py",
     "1 / 0",
-    "from turtle_lesson.experiments import experiment\nfrom turtle_lesson.session import check_target",
+    "from turtle_lesson.experiments import experiment",
 )
-"""Cells in which most of what pages import is imported: once, instead of once a page and answer."""
+"""Cells in which most of the rest is imported: once, instead of once a page and answer."""
 
 
 def draw_no_pictures() -> None:
@@ -76,7 +82,6 @@ def run_page(connection: socket.socket) -> None:
         if "cells" in wanted:
             os.environ.pop("TURTLE_LESSON_FOLDER", None)  # the current one is the learner's
             os.chdir(wanted["folder"])
-            draw_no_pictures()
             stream.write(json.dumps(results(wanted["cells"])) + "\n")
             return
         folder = Path(scratch, "folder")
@@ -84,8 +89,6 @@ def run_page(connection: socket.socket) -> None:
         os.environ["TURTLE_LESSON_FOLDER"] = str(folder)
         os.chdir(folder)
         page = Page(wanted["page"], folder)
-        if not wanted.get("stopped"):
-            draw_no_pictures()
         if wanted.get("stopped"):
             cells = [(cell["source"], "raises-exception" in cell["tags"]) for cell in page.cells]
             stream.write(json.dumps(stopped.problem(page.shell, cells, wanted["page"])) + "\n")
@@ -101,8 +104,11 @@ def main() -> None:
     interrupts.patience = PATIENCE
     probe.WORK, navigation.LONGEST, page_10.MINUTES = WORK, LONGEST, MINUTES
     the_shell()
+    for name in IMPORTS:
+        importlib.import_module(name)
     all_checks()
     import_what_these_import(WARM_UP)
+    draw_no_pictures()
     os.dup2(2, 1)  # what is printed belongs to the log
     gc.freeze()
     with socket.socket(fileno=int(sys.argv[1])) as listener:
