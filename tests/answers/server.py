@@ -42,6 +42,7 @@ def the_shell() -> Any:
     HistoryManager.enabled = False  # type: ignore[assignment]  # a trait, which may be replaced by its value
     shell: Any = InteractiveShell.instance()
     shell.display_formatter.active_types = ["text/plain"]  # nobody sees the pictures
+    shell.InteractiveTB.set_mode("Minimal")  # nor the stacks, each of which takes up to half a second to be written
     return shell
 
 

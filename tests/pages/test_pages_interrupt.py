@@ -52,6 +52,7 @@ def test_an_interrupted_cell_can_be_run_again_in_a_kernel(page: Path, tmp_path: 
 
     with client.setup_kernel():
         run(BUTTON)
+        run("%xmode Minimal")  # nobody reads the stacks, each of which takes up to half a second to be written
         for cell in cells:
             wanted = "raises-exception" in cell.metadata.tags
             began = monotonic()
