@@ -19,7 +19,7 @@ import turtle_lesson  # noqa: F401  (makes rclpy and the interface packages impo
 from turtle_lesson.ros.idl.registry import forget_modules, registry
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World, open_world
-from turtle_lesson.session.packages import underlay_packages
+from turtle_lesson.session.lesson import underlay_packages
 
 # A busy machine is no reason to fail: what hypothesis would refuse by its clock, CI or not, is taken. Fixtures may serve
 # several examples. Each run tries others; a long search is `TURTLE_LESSON_EXAMPLES=1000 pytest -m hypothesis tests`.

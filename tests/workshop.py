@@ -16,7 +16,7 @@ from turtlesim.msg import Pose
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.idl.registry import forget_modules, registry
 from turtle_lesson.ros.runtime.world import World
-from turtle_lesson.session.packages import underlay_packages
+from turtle_lesson.session.lesson import underlay_packages
 
 DATA = Path(__file__).parent / "data"
 SECOND = 1_000_000_000

@@ -36,7 +36,7 @@ def _is_page(place: Path) -> bool:
 def load_ipython_extension(shell: Any) -> None:
     """What `%load_ext turtle_lesson` does: errors are shown from the learner's point of view, commands are understood."""
     with defer_sigint():
-        from .notebook.ipython_shell import prepare
+        from .notebook import prepare
 
         prepare(shell)
 

@@ -19,8 +19,7 @@ from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Pose
 from turtlesim.srv import Kill, Spawn
 
-from turtle_lesson.turtlesim.turtle import PI, TICK, Rotation, float32, normalized
-from turtle_lesson.turtlesim.world import TurtleWorld
+from turtle_lesson.turtlesim.turtle import PI, TICK, Rotation, TurtleWorld, float32, normalized
 
 RECORDED = Path(__file__).parents[3] / "shared" / "golden" / "turtlesim_cli.txt"
 STARTED = 2  # lines of the log

@@ -11,8 +11,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from turtle_lesson.turtlesim.turtle import BARE, DEFAULT_PEN, HEIGHT, WIDTH, Canvas, Turtle, TurtleError, float32
-from turtle_lesson.turtlesim.world import TurtleWorld
+from turtle_lesson.turtlesim.turtle import (
+    BARE,
+    DEFAULT_PEN,
+    HEIGHT,
+    WIDTH,
+    Canvas,
+    Turtle,
+    TurtleError,
+    TurtleWorld,
+    float32,
+)
 
 DATA = Path(__file__).parents[1] / "data" / "turtlesim"
 PI_OF_TURTLESIM = 3.14159265

@@ -19,7 +19,7 @@ from turtle_lesson import start
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World, open_world
-from turtle_lesson.session.packages import underlay_packages
+from turtle_lesson.session.lesson import underlay_packages
 from turtle_lesson.teaching import main
 
 Type = Callable[[str], tuple[int, str, str]]

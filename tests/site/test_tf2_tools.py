@@ -17,7 +17,7 @@ from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, Tr
 from workshop import Workshop, distance
 
 from turtle_lesson.ros.runtime.world import World
-from turtle_lesson.session.packages import underlay_packages
+from turtle_lesson.session.lesson import underlay_packages
 
 Run = Callable[..., list[Any]]
 

@@ -17,7 +17,7 @@ import pytest
 import rclpy
 
 from turtle_lesson.ros.runtime.world import World
-from turtle_lesson.session.packages import underlay_packages
+from turtle_lesson.session.lesson import underlay_packages
 
 Run = Callable[..., list[Any]]
 SECOND = 1_000_000_000

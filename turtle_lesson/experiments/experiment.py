@@ -17,8 +17,7 @@ from typing import Any
 from ..lab.words import count, did_you_mean, enumerated
 from ..ros.distro import chosen_release
 from ..ros.sim.strand import running_strand
-from ..session.lesson import START_ORDERS
-from ..session.packages import package_folder
+from ..session.lesson import START_ORDERS, package_folder
 from . import one_run
 from .one_run import OK, OPTIONS, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cached_property
+from importlib.util import find_spec
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from ..learner.story import page_named
+from ..learner.story import FINISHED, HERE, page_named
 from ..learner.workspace import Workspace, workspace
+from ..ros.ament.package import Package
+from ..ros.ament.source import use_source
 from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry
 from ..ros.rmw.network import Conditions, set_conditions
@@ -18,8 +21,8 @@ from ..ros.runtime.files import CellOutput
 from ..ros.runtime.world import World, open_world, set_player, wall_time
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
+from ..ros.tools import demo_packages, program, tf2_packages
 from .live import Player, SimBackend
-from .packages import SIMULATOR, install, package_folder, underlay_packages
 from .robot import real_ros
 from .views import Inspection
 
@@ -93,7 +96,7 @@ def start(
     if "robot_controller" in registry.packages():
         registry.remove("robot_controller")
     if source is not None:
-        install(world, source)
+        use_source(world, source)
     if mine is not None:
         mine.source(world)
     return Lesson(world, simulator=simulator)
@@ -339,3 +342,35 @@ class Lesson(Inspection):
     @cached_property
     def _backend(self) -> Backend:
         return SimBackend(self._world, self._recording, self._player, self._board)
+
+
+# -- the packages of a world -------------------------------------------------------------------------------------------
+
+
+SIMULATOR: Callable[[], object] = program("turtle_lesson.turtlesim.node")
+"""What runs the turtle simulator."""
+
+
+def underlay_packages() -> list[Package]:
+    """The packages of a fresh ROS 2 whose programs `ros2 run` and launch files find: turtlesim, tf2, demos, xacro."""
+    names = ("draw_square", "mimic", "turtle_teleop_key")
+    programs = {name: program("turtle_lesson.turtlesim.tutorials", name) for name in names}
+    turtlesim = Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": SIMULATOR, **programs})
+    packages = [turtlesim, *tf2_packages(), *demo_packages()]
+    xacro = find_spec("xacro")  # a package of PyPI, which may be installed
+    if xacro is not None and xacro.origin is not None:
+        packages.append(Package("xacro", Path(xacro.origin).parent, executables={"xacro": program("xacro")}))
+    return packages
+
+
+def package_folder(package: str | Path | None) -> Path | None:
+    """The source folder of the package that `start` is asked for, None for none. Raises ValueError where it is not there."""
+    if package is None:
+        return None
+    if package == "finished":
+        return FINISHED
+    if isinstance(package, (str, Path)) and Path(package).is_dir():
+        return Path(package).resolve()
+    raise ValueError(
+        f'package must be "finished", "mine", None or the folder of a package, got {package!r}, which is not a folder here'
+    )

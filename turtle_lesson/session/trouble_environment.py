@@ -12,14 +12,13 @@ from typing import TYPE_CHECKING
 from ..learner.story import FINISHED, HERE
 from ..ros import launching
 from ..ros.ament.package import Package, PythonProgram, Target
-from ..ros.ament.source import overlay, overlays, remove_all
+from ..ros.ament.source import overlay, overlays, remove_all, use_source
 from ..ros.cli import colcon
 from ..ros.cli.jobs import Job, jobs
 from ..ros.idl.names import module_name
 from ..ros.idl.registry import registry
 from ..ros.runtime.files import CellOutput, home
 from ..ros.sim.process import Process
-from .packages import install
 
 if TYPE_CHECKING:
     from ..lab.troubles.faults import Program
@@ -80,7 +79,7 @@ class TroubleEnvironment:
         for folder in self._sourced:
             overlay(self._world, folder)
         if PACKAGE not in self._world.packages:
-            install(self._world, FINISHED)
+            use_source(self._world, FINISHED)
         self._world.sim.settle()
 
     def _programs(self) -> list[Process]:

@@ -20,8 +20,7 @@ from xml.etree import ElementTree
 
 from ..lab.checks.registry import all_checks, checks_of
 from ..lab.checks.results import GOOD
-from .copies import Copy
-from .limits import MEMORY
+from .copies import MEMORY, Copy
 from .pages import page_of
 from .runner import HOME, Seen, run_here
 

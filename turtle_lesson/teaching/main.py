@@ -15,9 +15,8 @@ from pathlib import Path
 from ..ros.runtime.files import OPENED
 from ..ros.sim.errors import print_error
 from . import pages
-from .copies import find
+from .copies import MEMORY, PATIENCE, TIMEOUT, find
 from .grade import Graded, as_csv, as_json, as_junit, grade, in_a_line, in_words
-from .limits import MEMORY, PATIENCE, TIMEOUT
 
 JUPYTER = Path(__file__).resolve().parent / "jupyter"
 """Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""

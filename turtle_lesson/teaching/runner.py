@@ -25,8 +25,7 @@ from threading import Event, Thread
 from typing import Any, Protocol
 
 from ..lab.checks.results import BAD, GOOD
-from .copies import Copy
-from .limits import LARGEST, end_all, environment, is_too_full, real_time, take_fonts
+from .copies import LARGEST, Copy, end_all, environment, is_too_full, real_time, take_fonts
 from .pages import PageError
 
 GRACE = 15.0

@@ -35,7 +35,7 @@ from typing import Any
 
 import psutil
 
-from .limits import LARGEST, MARK, end_all, limit, real_time
+from .copies import LARGEST, MARK, end_all, limit, real_time
 
 SHARE = 0.4
 """What part of the copy's time one cell may take."""

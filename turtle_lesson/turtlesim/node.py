@@ -41,9 +41,10 @@ from turtle_lesson.turtlesim.turtle import (
     Rotation,
     Turtle,
     TurtleError,
+    TurtleWorld,
+    WallHit,
     float32,
 )
-from turtle_lesson.turtlesim.world import TurtleWorld, WallHit
 
 BACKGROUND = {"r": ("Red", 69), "g": ("Green", 86), "b": ("Blue", 255)}
 TICKS_BETWEEN_WALL_WARNINGS = 1000 // TICK_MS + 1

@@ -236,6 +236,17 @@ def make_importable(world: World, package: Package) -> None:
     world.notebook.at_exit.append(undo)
 
 
+def use_source(world: World, folder: Path) -> None:
+    """Make a package's executables, launch files and interfaces findable, as building and sourcing it would."""
+    package = read_source_package(folder)
+    world.packages.add(package)
+    make_importable(world, package)
+    if package.interfaces:
+        if package.name in registry.packages():
+            registry.remove(package.name)
+        registry.add(package.name, folder, package.interfaces)
+
+
 # -- a package as it goes to a robot: checked with every rule of the build, and with a README ----------------------------
 
 _LEFT_OUT = (

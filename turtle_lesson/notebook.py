@@ -14,8 +14,8 @@ from typing import Any
 
 from IPython.core.magic import Magics, line_cell_magic, line_magic, magics_class, no_var_expand
 
-from ..ros.sim import errors
-from ..session.robot import real_ros
+from .ros.sim import errors
+from .session.robot import real_ros
 
 
 def prepare(shell: Any) -> None:
@@ -48,7 +48,7 @@ def _guard_the_workspace(shell: Any) -> None:
         return
 
     def writefile(line: str, cell: str) -> None:
-        from ..learner.workspace import workspace
+        from .learner.workspace import workspace
 
         words = line.split()
         file = Path(words[-1].strip("'\"")).expanduser().absolute() if words else Path()
@@ -66,7 +66,7 @@ def _guard_the_workspace(shell: Any) -> None:
 def _show(
     shell: Any, kind: type[BaseException], error: BaseException, trace: TracebackType, tb_offset: Any = None
 ) -> None:
-    from ..ros.cli.shell import CommandInterrupted
+    from .ros.cli.shell import CommandInterrupted
 
     if errors.before_showing is not None:
         errors.before_showing(error)
@@ -106,8 +106,8 @@ class TerminalMagics(Magics):
         self._run(f"source {line}")
 
     def _run(self, script: str) -> None:
-        from ..ros.cli.shell import Shell, run_line
-        from ..ros.runtime.world import current_world
+        from .ros.cli.shell import Shell, run_line
+        from .ros.runtime.world import current_world
 
         assert self.shell is not None
         try:
@@ -118,8 +118,8 @@ class TerminalMagics(Magics):
 
 def _understand_commands(shell: Any) -> None:
     """Make an IPython shell understand commands; doing it twice changes nothing."""
-    from ..ros.cli import cells, completion
-    from ..ros.runtime import files
+    from .ros.cli import cells, completion
+    from .ros.runtime import files
 
     files.begin_notebook()
     shell.register_magics(TerminalMagics)
