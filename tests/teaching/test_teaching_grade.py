@@ -23,8 +23,8 @@ import teaching_copies as copies
 from forgeries import FORGERIES, FORKED, PACKAGE_BESIDE
 
 from turtle_lesson.lab.checks.registry import checks_of
-from turtle_lesson.teaching import limits, runner
-from turtle_lesson.teaching.copies import Copy
+from turtle_lesson.teaching import runner
+from turtle_lesson.teaching.copies import Copy, environment, is_too_full
 from turtle_lesson.teaching.grade import CheckScore, Graded, as_csv, as_json, grade, in_words, judged, plain
 from turtle_lesson.teaching.main import main
 from turtle_lesson.teaching.runner import Runner, Seen
@@ -307,7 +307,7 @@ def test_the_cells_say_where_a_check_is_due(cell: str, parts: list[tuple[str, st
 def test_a_copy_gets_few_variables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GITHUB_TOKEN", "secret")
     monkeypatch.setenv("LC_ALL", "C.UTF-8")
-    given = limits.environment(tmp_path, "mark", "package")
+    given = environment(tmp_path, "mark", "package")
     assert "GITHUB_TOKEN" not in given
     assert given["LC_ALL"] == "C.UTF-8" and given["PATH"] == os.environ["PATH"]
     assert given["HOME"] == given["TMPDIR"] == str(tmp_path)
@@ -315,9 +315,9 @@ def test_a_copy_gets_few_variables(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 
 def test_a_full_folder_is_noticed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_bytes(bytes(100))
-    assert not limits.is_too_full(tmp_path)
-    monkeypatch.setattr(limits, "MOST_BYTES", 99)
-    assert limits.is_too_full(tmp_path)
+    assert not is_too_full(tmp_path)
+    monkeypatch.setattr("turtle_lesson.teaching.copies.MOST_BYTES", 99)
+    assert is_too_full(tmp_path)
 
 
 def test_the_table_says_what_was_missed() -> None:
