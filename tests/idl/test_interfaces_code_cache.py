@@ -15,7 +15,7 @@ import pytest
 from turtle_lesson.ros.idl import generator
 from turtle_lesson.ros.idl.generator import compiled
 from turtle_lesson.ros.runtime import files
-from turtle_lesson.teaching import limits, runner
+from turtle_lesson.teaching import copies, runner
 
 SOURCE = "answer = 42\n"
 linux = pytest.mark.skipif(sys.platform != "linux", reason="the folder has another name there")
@@ -164,7 +164,7 @@ def test_grading_neither_reads_nor_writes_it(tmp_path: Path, in_grading: bool) -
     home, desk = tmp_path / "home", tmp_path / "desk"
     home.mkdir()
     desk.mkdir()
-    variables = limits.environment(home, "mark", str(runner.HOME.parent))
+    variables = copies.environment(home, "mark", str(runner.HOME.parent))
     if not in_grading:
         del variables[generator.VARIABLE]
     program = "import turtle_lesson; from std_msgs.msg import String; print(String(data='as ever').data)"

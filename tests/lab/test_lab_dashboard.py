@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.scan import read_beams
+from turtle_lesson.lab.status_and_scan import read_beams
 from turtle_lesson.lab.widgets import dashboard as module
 from turtle_lesson.lab.widgets.dashboard import Dashboard, frequency, in_words, verdict
 from turtle_lesson.lab.widgets.live_widget import LiveWidget

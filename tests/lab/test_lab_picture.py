@@ -18,8 +18,7 @@ from traitlets.config import Config
 from turtle_lesson.lab import drawing
 from turtle_lesson.lab.drawing import Picture
 from turtle_lesson.lab.path import plot_path
-from turtle_lesson.lab.scan import plot_scan
-from turtle_lesson.lab.status import plot_status
+from turtle_lesson.lab.status_and_scan import plot_scan, plot_status
 
 PLOTS = {
     "path": lambda: plot_path(drive(recording()), goal=(8, 8, 1)),

@@ -9,8 +9,7 @@ import pytest
 from turtle_lesson.lab.path import plot_path
 from turtle_lesson.lab.recorder import Recorder, with_time
 from turtle_lesson.lab.recording import Obstacle
-from turtle_lesson.lab.scan import plot_scan
-from turtle_lesson.lab.status import plot_status
+from turtle_lesson.lab.status_and_scan import plot_scan, plot_status
 from turtle_lesson.ros.idl.registry import registry
 from turtle_lesson.ros.runtime.world import World, open_world
 from turtle_lesson.ros.sim.simulation import EPOCH

@@ -5,7 +5,7 @@ import math
 import pytest
 from lab_fakes import recording, scan, see
 
-from turtle_lesson.lab.scan import nice_step, plot_scan, reach_of, read_beams
+from turtle_lesson.lab.status_and_scan import nice_step, plot_scan, reach_of, read_beams
 
 
 def ranges(**seen):

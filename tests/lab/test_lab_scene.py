@@ -23,7 +23,7 @@ from hypothesis import strategies as st
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.path import MOST_POINTS, Trail
 from turtle_lesson.lab.recording import Table
-from turtle_lesson.lab.scan import read_beams
+from turtle_lesson.lab.status_and_scan import read_beams
 from turtle_lesson.lab.widgets import scene_mesh
 from turtle_lesson.lab.widgets.scene import Scene
 from turtle_lesson.lab.widgets.scene_commands import viewer_bundle

@@ -5,7 +5,7 @@ import math
 import pytest
 from lab_fakes import START, recording, report
 
-from turtle_lesson.lab.status import plot_status, spread
+from turtle_lesson.lab.status_and_scan import plot_status, spread
 
 
 def test_a_steady_stream():

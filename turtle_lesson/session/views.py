@@ -127,13 +127,13 @@ class Views:
 
     def plot_status(self, **options: Any) -> Picture:
         """Position, heading, velocity and battery over time, from what /robot/status said."""
-        from ..lab.status import plot_status
+        from ..lab.status_and_scan import plot_status
 
         return plot_status(self._recording, **options)
 
     def plot_scan(self) -> Picture:
         """The last scan that /obstacles brought, as the turtle sees it."""
-        from ..lab.scan import plot_scan
+        from ..lab.status_and_scan import plot_scan
 
         return plot_scan(self._recording)
 

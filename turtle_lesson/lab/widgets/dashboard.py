@@ -21,8 +21,7 @@ from ..graph import EVERYWHERE, node_names, servers
 from ..path import plot_path
 from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
-from ..scan import Beams, read_beams
-from ..status import plot_status
+from ..status_and_scan import Beams, plot_status, read_beams
 from ..words import count, listed, number
 from .goal_pad import GoalPad
 from .live_widget import pack

@@ -16,7 +16,7 @@ from .. import drawing
 from ..drawing import Picture
 from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
-from ..status import label_beside, spread
+from ..status_and_scan import label_beside, spread
 from ..words import count, did_you_mean, enumerated, number
 from .backend import Backend
 from .live_widget import LiveWidget, pack

@@ -15,7 +15,7 @@ from .. import drawing
 from ..drawing import Picture
 from ..path import Trail
 from ..recording import WORLD
-from ..scan import read_beams
+from ..status_and_scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_commands, scene_mesh
 from .goal_client import Goal, goals_from

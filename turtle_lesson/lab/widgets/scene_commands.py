@@ -18,7 +18,7 @@ import umsgpack
 
 from ...ros.sim.defer_sigint import defer_sigint
 from ..recording import WORLD, Obstacle
-from ..scan import read_beams
+from ..status_and_scan import read_beams
 from . import scene_mesh
 from .goal_client import Goal
 from .scene_mesh import Mesh, placed

@@ -14,7 +14,7 @@ from .. import drawing
 from ..drawing import BACK, BODY, HEAD, LEGS, OUTLINE, RIM, SHELL, SKIN, TAIL
 from ..path import TOLERANCE
 from ..recording import WORLD, Obstacle
-from ..scan import Beams, reach_of
+from ..status_and_scan import Beams, reach_of
 
 
 @dataclass(frozen=True, eq=False)
