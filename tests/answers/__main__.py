@@ -20,10 +20,13 @@ import socket
 import sys
 import tempfile
 import traceback
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 os.environ["TURTLE_LESSON_PROGRESS"] = "off"
 
+from turtle_lesson import experiments
 from turtle_lesson.lab.checks import navigation, page_10, probe
 from turtle_lesson.lab.checks.registry import all_checks
 from turtle_lesson.lab.drawing import Picture
@@ -75,6 +78,17 @@ def draw_no_pictures() -> None:
     Picture.png = lambda self: b""  # type: ignore[method-assign]
 
 
+def carry_out_few_runs() -> None:
+    """Have the experiments of a page carry out four runs of each setting, in one process: nbval compares all of them."""
+
+    def few(function: Callable[..., Any], *, seeds: Iterable[int] = range(4), **options: Any) -> experiments.Results:
+        fewer = seeds if "until" in options else [*seeds][:4]
+        return every(function, seeds=fewer, **{"jobs": 1, **options})
+
+    every = experiments.experiment
+    experiments.experiment = few
+
+
 def run_page(connection: socket.socket) -> None:
     """Run the page that the first line names, in a fresh folder."""
     with connection, connection.makefile("rw", encoding="utf-8") as stream, tempfile.TemporaryDirectory() as scratch:
@@ -109,6 +123,7 @@ def main() -> None:
     all_checks()
     import_what_these_import(WARM_UP)
     draw_no_pictures()
+    carry_out_few_runs()
     os.dup2(2, 1)  # what is printed belongs to the log
     gc.freeze()
     with socket.socket(fileno=int(sys.argv[1])) as listener:
