@@ -105,7 +105,7 @@ def run_page(connection: socket.socket) -> None:
         page = Page(wanted["page"], folder)
         if wanted.get("stopped"):
             cells = [(cell["source"], "raises-exception" in cell["tags"]) for cell in page.cells]
-            stream.write(json.dumps(stopped.problem(page.shell, cells, wanted["page"])) + "\n")
+            stream.write(json.dumps(stopped.problem_here(page.shell, cells, wanted["page"])) + "\n")
         elif wanted.get("restart"):
             stream.write(json.dumps(restart.problems(page, wanted["page"])) + "\n")
         else:

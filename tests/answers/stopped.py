@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import io
 import re
+from collections.abc import Callable
 from random import Random
 from time import monotonic
 from typing import Any
@@ -53,9 +54,39 @@ def fault(source: str, ended: str, said: str, error_is_wanted: bool) -> str:
     return f"{said}\nby:\n{source}" if wrong else ""
 
 
-def problem(shell: Any, cells: list[tuple[str, bool]], name: str) -> str:
-    """Run cells, each with whether an error is wanted, and stop each once: the first thing that is wrong, or ""."""
+def problem(
+    cells: list[tuple[str, bool]],
+    name: str,
+    run: Callable[[str], tuple[str, str]],
+    stop_after: Callable[[float], object],
+    was_stopped: Callable[[], bool],
+) -> str:
+    """Run cells, each with whether an error is wanted, and stop each once: the first thing that is wrong, or "".
+
+    Args:
+        name: the page's, which decides about the moments.
+        run: runs code; the error in which it ended, or "", and what it said on stderr.
+        stop_after: has the button be pressed so many seconds after the next cell begins.
+        was_stopped: whether it was pressed in the last one.
+    """
     chance = Random(name)
+    run(BUTTON)
+    for source, wanted in cells:
+        began = monotonic()
+        run(source)
+        stop_after(chance.uniform(0, monotonic() - began))
+        ended, said = run(source)
+        # How a stopped cell ends does not tell that it was: an interrupt may be handled, it is only printed where Python takes
+        # something apart, and IPython fails with an error of its own if it comes where Python has no line number for it.
+        if was_stopped():
+            ended, said = run(source)
+        if wrong := fault(source, ended, said, wanted):
+            return wrong
+    return ""
+
+
+def problem_here(shell: Any, cells: list[tuple[str, bool]], name: str) -> str:
+    """The same in a shell of this process."""
 
     def run(source: str) -> tuple[str, str]:
         """Run code: the error in which it ended, or '', and what it said on stderr."""
@@ -66,16 +97,7 @@ def problem(shell: Any, cells: list[tuple[str, bool]], name: str) -> str:
         ended = "" if error is None else f"{type(error).__name__}: {error}\n{printed.getvalue()[-4000:]}"
         return ended, said.getvalue()
 
-    run(BUTTON)
-    for source, wanted in cells:
-        began = monotonic()
-        run(source)
-        shell.meta["stop_after"] = chance.uniform(0, monotonic() - began)
-        ended, said = run(source)
-        # How a stopped cell ends does not tell that it was: an interrupt may be handled, it is only printed where Python takes
-        # something apart, and IPython fails with an error of its own if it comes where Python has no line number for it.
-        if shell.meta.pop("stopped", False):
-            ended, said = run(source)
-        if wrong := fault(source, ended, said, wanted):
-            return wrong
-    return ""
+    def stop_after(seconds: float) -> None:
+        shell.meta["stop_after"] = seconds
+
+    return problem(cells, name, run, stop_after, lambda: shell.meta.pop("stopped", False))

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from random import Random
-from time import monotonic
 
 import pytest
 from answers.client import PageServer
-from answers.stopped import BUTTON, fault
+from answers.stopped import problem
 from nbclient.exceptions import CellExecutionError
 from nbformat import v4
 from test_pages import PAGES, client_in, code_cells
@@ -34,7 +32,6 @@ def test_an_interrupted_cell_can_be_run_again(page_server: PageServer, page: Pat
 def test_an_interrupted_cell_can_be_run_again_in_a_kernel(page: Path, tmp_path: Path) -> None:
     cells = code_cells(page)
     client = client_in(tmp_path, v4.new_notebook(cells=[*cells, v4.new_code_cell()]))
-    chance = Random(page.stem)
 
     def run(source: str) -> tuple[str, str]:
         """Run code: the error in which it ended, or '', and what it said on stderr."""
@@ -50,16 +47,10 @@ def test_an_interrupted_cell_can_be_run_again_in_a_kernel(page: Path, tmp_path: 
         """Whether the button was pressed in the cell before."""
         return bool(run("if get_ipython().meta.pop('stopped', False): raise KeyboardInterrupt")[0])
 
+    wanted = [(cell.source, "raises-exception" in cell.metadata.tags) for cell in cells]
     with client.setup_kernel():
-        run(BUTTON)
         run("%xmode Minimal")  # nobody reads the stacks, each of which takes up to half a second to be written
-        for cell in cells:
-            wanted = "raises-exception" in cell.metadata.tags
-            began = monotonic()
-            run(cell.source)
-            run(f"get_ipython().meta['stop_after'] = {chance.uniform(0, monotonic() - began)}")
-            ended, said = run(cell.source)
-            if was_stopped():
-                ended, said = run(cell.source)
-            wrong = fault(cell.source, ended, said, wanted)
-            assert not wrong, wrong
+        wrong = problem(
+            wanted, page.stem, run, lambda seconds: run(f"get_ipython().meta['stop_after'] = {seconds}"), was_stopped
+        )
+    assert not wrong, wrong

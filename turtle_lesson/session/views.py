@@ -277,9 +277,8 @@ class Inspection(Views):
         from ..lab.graph import plot_graph
         from ..lab.prompts import code_of, compose
 
-        if (
-            code is None
-        ):  # the learner's own robot_controller, and nothing while there is only the finished one, or none
+        if code is None:
+            # the learner's own robot_controller, and nothing while there is only the finished one, or none
             packages = self._world.packages
             source = packages.get("robot_controller").source if "robot_controller" in packages else None
             code = [] if source is None or source.resolve() == FINISHED else source

@@ -61,9 +61,8 @@ class TurtlesimNode(Node):
                 integer_range=[IntegerRange(from_value=0, to_value=255, step=1)],
             )
             self.declare_parameter(f"background_{letter}", value, descriptor)
-        quality = QoSProfile(
-            depth=100, reliability=ReliabilityPolicy.BEST_EFFORT
-        )  # the real one repaints its window then
+        # The real one repaints its window then.
+        quality = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
         self.create_subscription(ParameterEvent, "/parameter_events", lambda _event: None, quality)
         self.create_service(Empty, "clear", self._on_clear)
         self.create_service(Empty, "reset", self._on_reset)

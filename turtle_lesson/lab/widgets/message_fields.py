@@ -11,13 +11,15 @@ import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ...ros.idl.checks import FLOAT_BOUNDS
 from ...ros.idl.names import integer_bounds
 from ..words import same
+
+Number = TypeVar("Number", int, float)
 
 FLOATS = {"float", "double"}
 WHOLE = {"octet", "char"} | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
@@ -95,10 +97,7 @@ def constants_of(message_class: Any) -> dict[str, Any]:
 
 def read_float(text: str, base: str) -> float:
     """The number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
-    try:
-        value = float(text.strip().replace("−", "-"))
-    except ValueError:
-        raise ValueError(_no_number(text.strip(), "a number such as 1.5")) from None
+    value = _typed(float, text.strip(), "a number such as 1.5")
     if base == "float" and math.isfinite(value) and abs(value) > FLOAT_BOUNDS["float32"]:
         raise ValueError("a float32 goes up to 3.4e38")
     return value
@@ -106,21 +105,22 @@ def read_float(text: str, base: str) -> float:
 
 def read_integer(text: str, base: str) -> int:
     """The whole number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
-    try:
-        value = int(text.strip().replace("−", "-"))
-    except ValueError:
-        raise ValueError(_no_number(text.strip(), "a whole number such as 3")) from None
+    value = _typed(int, text.strip(), "a whole number such as 3")
     low, high = integer_bounds(base)
     if not low <= value <= high:
         raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
 
 
-def _no_number(text: str, wanted: str) -> str:
-    if not text:
-        return f"{wanted} is missing"
-    shown = text if len(text) <= 30 else f"{text[:30]}…"
-    return f'{wanted} is wanted, got "{shown}"' + (": write a point, not a comma" if "," in text else "")
+def _typed(kind: Callable[[str], Number], text: str, wanted: str) -> Number:
+    try:
+        return kind(text.replace("−", "-"))
+    except ValueError:
+        if not text:
+            raise ValueError(f"{wanted} is missing") from None
+        shown = text if len(text) <= 30 else f"{text[:30]}…"
+        why = ": write a point, not a comma" if "," in text else ""
+        raise ValueError(f'{wanted} is wanted, got "{shown}"{why}') from None
 
 
 def find_class(type_name: str) -> Any:

@@ -254,15 +254,8 @@ def send_goal(args: Namespace) -> None:
             handle.cancel_goal_async()  # nothing can wait for the answer any more
             raise
         print(f"Result:\n    {message_to_yaml(with_result.result)}")
-        names = (
-            "UNKNOWN",
-            "ACCEPTED",
-            "EXECUTING",
-            "CANCELING",
-            "SUCCEEDED",
-            "CANCELED",
-            "ABORTED",
-        )  # as in GoalStatus
+        # as in GoalStatus
+        names = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")
         print(f"Goal finished with status: {names[with_result.status]}")
 
 

@@ -115,9 +115,8 @@ class LaunchService:
         with self._inside():
             try:
                 self.visit(entity)
-                for (
-                    handler
-                ) in self.context._event_handlers:  # what waits for the end, say, of a program that is left out
+                # what waits for the end, say, of a program that is left out
+                for handler in self.context._event_handlers:
                     target: Any = getattr(handler, "_target", None)
                     emits = all(isinstance(each, EmitEvent) for each in handler.describe()[1])
                     if target in self._left_out and not emits:

@@ -382,7 +382,7 @@ class Simulation(Face):
 
         What it raises is raised here.
         """
-        if strand is not running_greenlet():  # its stack is a carrier's, and has calls of its own that wait for this
+        if not self._may_hand_turns_over(strand):
             while turn():
                 self.park(strand)
             return
@@ -393,6 +393,10 @@ class Simulation(Face):
                 if strand.failure is not None:
                     raise strand.taken_failure()
                 return
+
+    def _may_hand_turns_over(self, strand: Strand) -> bool:
+        """Not if the stack is a carrier's, which has calls of its own that wait for this strand."""
+        return strand is running_greenlet()
 
     def _add_carrier(self) -> None:
         carrier = Carrier(self._carry)
@@ -481,13 +485,9 @@ class CarefulSimulation(Simulation):
             function, *strand.calls = strand.calls
             function()
 
-    def take_turns(self, strand: Strand, turn: Callable[[], bool]) -> None:
-        """See Simulation. Within an asyncio loop, turns are taken on its own stack: on another one it would be missing."""
-        if asyncio._get_running_loop() is None:
-            super().take_turns(strand, turn)
-            return
-        while turn():
-            self.park(strand)
+    def _may_hand_turns_over(self, strand: Strand) -> bool:
+        """See Simulation. Nor within an asyncio loop, which would be missing on another stack."""
+        return asyncio._get_running_loop() is None and super()._may_hand_turns_over(strand)
 
 
 def be_careful(simulation: Simulation) -> None:

@@ -152,7 +152,7 @@ class Entity:
             explain_call(self, arguments, error)
             raise
         finally:
-            if traced is not None:
+            if traced is not None:  # `traced.end_run(…)`, written out
                 if running[-1] is begun:  # as nearly always: few callbacks run beside themselves
                     running.pop()
                 else:
