@@ -193,37 +193,6 @@ def test_programs_ask_through_ament_index_python(demo: Path) -> None:
             get_package_prefix("nowhere")
 
 
-def test_programs_ask_for_resources(tmp_path: Path) -> None:
-    from ament_index_python import (
-        InvalidResourceNameError,
-        get_resource,
-        get_resource_types,
-        get_resources,
-        get_search_paths,
-        has_resource,
-    )
-
-    listed = tmp_path / "share/ament_index/resource_index"
-    for name, text in {"packages/arm": "", "tools/gripper": "soft"}.items():
-        (listed / name).parent.mkdir(parents=True)
-        (listed / name).write_text(text)
-    index = make_index("turtlesim")
-    index.add(Package("arm", tmp_path / "share/arm", prefix=tmp_path))
-    place = str(tmp_path)
-    with seeing(index):
-        assert get_search_paths()[0] == place
-        assert get_resource_types() == {"packages", "tools"}
-        assert get_resources("tools") == {"gripper": place}
-        assert list(get_resources("packages")) == ["arm", "turtlesim"]
-        assert get_resource("tools", "gripper") == ("soft", place)
-        assert get_resource("packages", "turtlesim")[0] == ""
-        assert (has_resource("tools", "gripper"), has_resource("tools", "hammer")) == (place, False)
-        with pytest.raises(LookupError, match="Could not find the resource 'hammer' of type 'tools'"):
-            get_resource("tools", "hammer")
-        with pytest.raises(InvalidResourceNameError):
-            has_resource("tools", "a/b")
-
-
 def test_importing_the_simulation_does_not_load_launch() -> None:
     code = "import sys, turtle_lesson.ros.launching; print('launch' in sys.modules, 'yaml' in sys.modules)"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

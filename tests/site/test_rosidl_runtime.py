@@ -8,7 +8,6 @@ from __future__ import annotations
 from array import array
 from collections import OrderedDict
 from enum import IntEnum
-from pathlib import Path
 from typing import Any
 
 import builtin_interfaces.msg as builtin
@@ -98,7 +97,6 @@ def test_kinds_are_told_apart() -> None:
 
 
 def test_lists_of_interfaces(world: World) -> None:
-    assert {"std_msgs", "turtlesim", "nav_msgs"} <= set(api.get_interface_packages())
     assert api.get_interfaces(["std_srvs", "rclpy"]) == {"std_srvs": ["srv/Empty", "srv/SetBool", "srv/Trigger"]}
     assert api.get_message_interfaces(["turtlesim"]) == {"turtlesim": ["msg/Color", "msg/Pose"]}
     assert api.get_service_interfaces(["std_msgs", "std_srvs"]).keys() == {"std_srvs"}
@@ -106,22 +104,6 @@ def test_lists_of_interfaces(world: World) -> None:
     assert sum(len(names) for names in api.get_interfaces().values()) > 200
     with pytest.raises(LookupError, match="Unknown package 'nope'"):
         api.get_message_interfaces(["nope"])
-
-
-def test_the_file_of_an_interface(world: World) -> None:
-    for name in ("std_msgs/msg/String", "std_msgs/msg/String.msg"):
-        assert Path(api.get_interface_path(name)).read_text(encoding="utf-8") == "string data\n"
-    assert api.get_interface_path("turtlesim/action/RotateAbsolute").endswith("RotateAbsolute.action")
-    for name, error, said in [
-        ("String", ValueError, "Expected at least two parts separated by '/'"),
-        ("std_msgs//String", ValueError, "Must not contain empty parts"),
-        ("std_msgs/../String", ValueError, "Must not contain '..'"),
-        ("nope/msg/String", LookupError, "Unknown package 'nope'"),
-        ("std_msgs/msg/Strng", LookupError, "Could not find the interface '"),
-        ("std_msgs/msg/String.idl", LookupError, "String.idl'"),
-    ]:
-        with pytest.raises(error, match=said):
-            api.get_interface_path(name)
 
 
 # -- messages as text ----------------------------------------------------------------------------------------------------

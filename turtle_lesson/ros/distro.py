@@ -34,9 +34,6 @@ class Change:
     source: str
     is_addition: bool = False
 
-    def __repr__(self) -> str:
-        return f"<since {self.since}: {self.what}>"
-
 
 UNCHECKED_FIELDS = Change(
     "iron",
@@ -119,15 +116,6 @@ class Release:
         self._changes = frozenset(each for each in changes() if RELEASES.index(each.since) <= RELEASES.index(name))
         self.lacked: dict[tuple[Change, str], int] = {}
         """What programs have used that this release lacks, and in which file; the line of the first use."""
-
-    def __repr__(self) -> str:
-        return f"<ROS 2 {self.title}>"
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Release) and self.name == other.name
-
-    def __hash__(self) -> int:
-        return hash(self.name)
 
     @property
     def title(self) -> str:

@@ -8,16 +8,49 @@ name, or the reason and the index of the first bad character.
 from __future__ import annotations
 
 import re
-import string
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-WORD = frozenset(string.ascii_letters + string.digits + "_")
-MAX_NODE_NAME = 255
-MAX_NAMESPACE = 245
-MAX_TOPIC_NAME = 247
 UNBALANCED = "topic name must not have unmatched (unbalanced) curly braces '{}'"
+
+Rules = tuple[tuple[str, str], ...]
+"""Patterns of what is not allowed, the first one that is found counts, with the words of ROS."""
+
+_NODE_NAME: Rules = (
+    (r"\A\Z", "node name must not be empty"),
+    (r"\W", "node name must not contain characters other than alphanumerics or '_'"),
+    (r"\A\d", "node name must not start with a number"),
+    (r"(?<=\A.{254}).(?=.)", "node name length should not exceed '255'"),
+)
+_NAMESPACE: Rules = (
+    (r"\A\Z", "namespace must not be empty"),
+    (r"\A[^/]", "namespace must be absolute, it must lead with a '/'"),
+    (r"(?<=.)/\Z", "namespace must not end with a '/', unless only a '/'"),
+    (r"[^\w/]", "namespace must not contain characters other than alphanumerics, '_', or '/'"),
+    (r"(?<=/)/", "namespace must not contain repeated '/'"),
+    (r"(?<=/)\d", "namespace must not have a token that starts with a number"),
+    (r"(?<=\A.{244}).(?=.)", "namespace should not exceed '245'"),
+)
+_FULL_TOPIC_NAME: Rules = (
+    (r"\A\Z", "topic name must not be empty"),
+    (r"\A[^/]", "topic name must be absolute, it must lead with a '/'"),
+    (r"/\Z", "topic name must not end with a '/'"),
+    (r"[^\w/]", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
+    (r"(?<=/)/", "topic name must not contain repeated '/'"),
+    (r"(?<=/)\d", "topic name must not have a token that starts with a number"),
+    (r"(?<=\A.{246}).(?=.)", "topic length should not exceed '247'"),
+)
+_ENDS_OF_TOPIC_NAME: Rules = (
+    (r"\A\Z", "topic name must not be empty string"),
+    (r"\A\d", "topic name token must not start with a number"),
+    (r"/\Z", "topic name must not end with a forward slash"),
+)
+_TOKENS_OF_TOPIC_NAME: Rules = (
+    # rcl overlooks this in names of two letters
+    (r"(?<=\A~)[^/](?=.)", "topic name must not have a tilde '~' that is not followed by a forward slash '/'"),
+    (r"(?<=/)\d", "topic name token must not start with a number"),
+)
 
 
 class Flaw(NamedTuple):
@@ -39,104 +72,54 @@ class Remap(NamedTuple):
     is_service: bool | None = None
 
 
+def _flaw(name: str, rules: Rules) -> Flaw | None:
+    for pattern, reason in rules:
+        if found := re.search(pattern, name, re.ASCII | re.DOTALL):
+            return Flaw(reason, found.start())
+    return None
+
+
 def node_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a node's name."""
-    if not name:
-        return Flaw("node name must not be empty", 0)
-    for index, letter in enumerate(name):
-        if letter not in WORD:
-            return Flaw("node name must not contain characters other than alphanumerics or '_'", index)
-    if name[0] in string.digits:
-        return Flaw("node name must not start with a number", 0)
-    if len(name) > MAX_NODE_NAME:
-        return Flaw(f"node name length should not exceed '{MAX_NODE_NAME}'", MAX_NODE_NAME - 1)
-    return None
+    return _flaw(name, _NODE_NAME)
 
 
 def namespace_flaw(namespace: str) -> Flaw | None:
     """What is wrong with a full namespace such as `/robots/bob`."""
-    if not namespace:
-        return Flaw("namespace must not be empty", 0)
-    if not namespace.startswith("/"):
-        return Flaw("namespace must be absolute, it must lead with a '/'", 0)
-    if namespace == "/":
-        return None
-    if namespace.endswith("/"):
-        return Flaw("namespace must not end with a '/', unless only a '/'", len(namespace) - 1)
-    for index, letter in enumerate(namespace):
-        if letter not in WORD and letter != "/":
-            return Flaw("namespace must not contain characters other than alphanumerics, '_', or '/'", index)
-    if "//" in namespace:
-        return Flaw("namespace must not contain repeated '/'", namespace.index("//") + 1)
-    if match := re.search(r"/\d", namespace):
-        return Flaw("namespace must not have a token that starts with a number", match.start() + 1)
-    if len(namespace) > MAX_NAMESPACE:
-        return Flaw(f"namespace should not exceed '{MAX_NAMESPACE}'", MAX_NAMESPACE - 1)
-    return None
+    return _flaw(namespace, _NAMESPACE)
 
 
 @lru_cache(maxsize=1000)  # a program that counts publishers once a second names the same topics
 def topic_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a topic's or service's name as a program gives it (`~`, `{node}` and relative names allowed)."""
-    if not name:
-        return Flaw("topic name must not be empty string", 0)
-    if name[0] in string.digits:
-        return Flaw("topic name token must not start with a number", 0)
-    if name.endswith("/"):
-        return Flaw("topic name must not end with a forward slash", len(name) - 1)
-    return _letters_flaw(name) or _tokens_flaw(name)
+    return _flaw(name, _ENDS_OF_TOPIC_NAME) or _letters_flaw(name) or _flaw(name, _TOKENS_OF_TOPIC_NAME)
 
 
 @lru_cache(maxsize=1000)
 def full_topic_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a topic's or service's full name, as it is in the graph."""
-    if not name:
-        return Flaw("topic name must not be empty", 0)
-    if not name.startswith("/"):
-        return Flaw("topic name must be absolute, it must lead with a '/'", 0)
-    if name.endswith("/"):
-        return Flaw("topic name must not end with a '/'", len(name) - 1)
-    for index, letter in enumerate(name):
-        if letter not in WORD and letter != "/":
-            return Flaw("topic name must not contain characters other than alphanumerics, '_', or '/'", index)
-    if "//" in name:
-        return Flaw("topic name must not contain repeated '/'", name.index("//") + 1)
-    if match := re.search(r"/\d", name):
-        return Flaw("topic name must not have a token that starts with a number", match.start() + 1)
-    if len(name) > MAX_TOPIC_NAME:
-        return Flaw(f"topic length should not exceed '{MAX_TOPIC_NAME}'", MAX_TOPIC_NAME - 1)
-    return None
+    return _flaw(name, _FULL_TOPIC_NAME)
 
 
 def _letters_flaw(name: str) -> Flaw | None:
-    opened: int | None = None  # where the brace is that is open
-    for index, letter in enumerate(name):
-        if letter == "~":
-            if index:
-                return Flaw("topic name must not have tilde '~' unless it is the first character", index)
-        elif letter == "}":
-            if opened is None:
-                return Flaw(UNBALANCED, index)
-            opened = None
-        elif opened is not None:
-            if letter not in WORD:
-                return Flaw("substitution name must not contain characters other than alphanumerics or '_'", index)
-            if letter in string.digits and index == opened + 1:
-                return Flaw("substitution name must not start with a number", index)
-        elif letter == "{":
-            opened = index
-        elif letter not in WORD and letter != "/":
-            what = "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
-            return Flaw(what, index)
-    return None if opened is None else Flaw(UNBALANCED, opened)
-
-
-def _tokens_flaw(name: str) -> Flaw | None:
-    if name.startswith("~") and len(name) > 2 and name[1] != "/":  # rcl overlooks it in names of two letters
-        return Flaw("topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1)
-    if match := re.search(r"/\d", name):
-        return Flaw("topic name token must not start with a number", match.start() + 1)
-    return None
+    """The first letter that cannot be where it is; braces stand around the name of a substitution."""
+    good = re.match(r"~?([\w/]|\{([a-z_]\w*)?\})*", name, re.ASCII | re.IGNORECASE)
+    place = good.end() if good else 0
+    if place == len(name):
+        return None
+    if name[place] == "{" and (inner := re.match(r"(\d)|\w*(\W)", name[place + 1 :], re.ASCII)):
+        bad = place + inner.end()
+        if inner[1]:
+            return Flaw("substitution name must not start with a number", bad)
+        if inner[2] != "~":
+            return Flaw("substitution name must not contain characters other than alphanumerics or '_'", bad)
+        place = bad
+    if name[place] == "~":
+        return Flaw("topic name must not have tilde '~' unless it is the first character", place)
+    if name[place] in "{}":
+        return Flaw(UNBALANCED, place)
+    what = "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+    return Flaw(what, place)
 
 
 def flaw_text(kind: str, name: str, flaw: Flaw) -> str:

@@ -6,29 +6,11 @@ Names and arguments are those of https://github.com/DLu/tf_transformations. Angl
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
 import numpy.typing as npt
 from tf2_py import _rotation as turns
-
-_OTHERS = """
-    Arcball arcball_constrain_to_axis arcball_map_to_sphere arcball_nearest_axis clip_matrix compose_matrix
-    decompose_matrix is_same_transform orthogonalization_matrix projection_from_matrix projection_matrix
-    random_quaternion random_rotation_matrix random_vector reflection_from_matrix reflection_matrix
-    rotation_from_matrix scale_from_matrix scale_matrix shear_from_matrix shear_matrix superimposition_matrix
-"""
-
-
-def __getattr__(name: str) -> Any:
-    text = f"module 'tf_transformations' has no attribute {name!r}"
-    if name in _OTHERS.split():
-        text = (
-            f"tf_transformations.{name} is not available here; a real ROS 2 has it, and numpy can do the same with the "
-            "4 × 4 matrix"
-        )
-    raise AttributeError(text)
-
 
 # Three angles about three axes, in 24 ways: `sxyz` is roll, pitch, yaw about fixed axes; `rzyx` about turning ones.
 # The letters name the axes in the order of the angles; `s` means axes that stay, `r` axes that are turned along.
@@ -39,21 +21,15 @@ Matrix = npt.NDArray[np.float64]
 EPSILON = float(np.finfo(float).eps) * 4.0
 
 
-def _axes(axes: Any) -> tuple[bool, tuple[int, int, int]]:
-    """Whether the axes turn along, and which they are. `axes`: such as "sxyz", or the code (0, 0, 0, 0) for it."""
-    if not isinstance(axes, str):
-        first, parity, repeated, turning = axes
-        second = (first + 1 + parity) % 3
-        third = first if repeated else 3 - first - second
-        fixed = (first, second, third)
-        return bool(turning), fixed[::-1] if turning else fixed
+def _axes(axes: str) -> tuple[bool, tuple[int, int, int]]:
+    """Whether the axes turn along, and which they are."""
     numbers = tuple("xyz".find(letter) for letter in axes[1:])
     if len(axes) != 4 or axes[0] not in "sr" or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
         raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', got {axes!r}")
     return axes[0] == "r", (numbers[0], numbers[1], numbers[2])
 
 
-def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Any = "sxyz") -> Numbers:
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Numbers:
     """The quaternion of three angles: by default roll, pitch and yaw."""
     turning, numbers = _axes(axes)
     found: Numbers = (0.0, 0.0, 0.0, 1.0)
@@ -63,17 +39,17 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Any = "sxyz") -
     return found
 
 
-def euler_matrix(ai: float, aj: float, ak: float, axes: Any = "sxyz") -> Matrix:
+def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Matrix:
     """The 4 × 4 matrix of three angles: by default roll, pitch and yaw."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
-def euler_from_quaternion(quaternion: Any, axes: Any = "sxyz") -> Angles:
+def euler_from_quaternion(quaternion: Iterable[float], axes: str = "sxyz") -> Angles:
     """The angles of a quaternion [x, y, z, w]: by default roll, pitch and yaw."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
-def euler_from_matrix(matrix: Any, axes: Any = "sxyz") -> Angles:
+def euler_from_matrix(matrix: npt.ArrayLike, axes: str = "sxyz") -> Angles:
     """The angles of a turn in a matrix. Where many would do, the one about the last fixed axis is 0."""
     turning, numbers = _axes(axes)
     turn = np.array(matrix, dtype=np.float64)[:3, :3]
@@ -111,19 +87,19 @@ def identity_matrix() -> Matrix:
     return np.identity(4)
 
 
-def translation_matrix(direction: Any) -> Matrix:
+def translation_matrix(direction: npt.ArrayLike) -> Matrix:
     """The matrix that shifts by a vector."""
     matrix = np.identity(4)
     matrix[:3, 3] = np.asarray(direction, dtype=np.float64)[:3]
     return matrix
 
 
-def translation_from_matrix(matrix: Any) -> Matrix:
+def translation_from_matrix(matrix: npt.ArrayLike) -> Matrix:
     """The shift in a matrix."""
     return np.array(matrix, dtype=np.float64)[:3, 3]
 
 
-def rotation_matrix(angle: float, direction: Any, point: Any = None) -> Matrix:
+def rotation_matrix(angle: float, direction: npt.ArrayLike, point: npt.ArrayLike | None = None) -> Matrix:
     """The matrix that turns by an angle about an axis, through a point if one is given."""
     matrix = quaternion_matrix(quaternion_about_axis(angle, np.asarray(direction, dtype=np.float64)[:3]))
     if point is not None:
@@ -132,12 +108,12 @@ def rotation_matrix(angle: float, direction: Any, point: Any = None) -> Matrix:
     return matrix
 
 
-def inverse_matrix(matrix: Any) -> Matrix:
+def inverse_matrix(matrix: npt.ArrayLike) -> Matrix:
     """The matrix that takes back what another does."""
-    return np.linalg.inv(matrix)
+    return np.linalg.inv(np.asarray(matrix, dtype=np.float64))
 
 
-def concatenate_matrices(*matrices: Any) -> Matrix:
+def concatenate_matrices(*matrices: npt.ArrayLike) -> Matrix:
     """The product of matrices: the last one is applied first."""
     product = np.identity(4)
     for matrix in matrices:
@@ -145,7 +121,7 @@ def concatenate_matrices(*matrices: Any) -> Matrix:
     return product
 
 
-def _four(quaternion: Any) -> Numbers:
+def _four(quaternion: Iterable[float]) -> Numbers:
     if hasattr(quaternion, "w") and hasattr(quaternion, "x"):
         kind = type(quaternion).__name__
         raise TypeError(f"a quaternion is a list [x, y, z, w] here, got a {kind}: write [q.x, q.y, q.z, q.w]")
@@ -153,30 +129,30 @@ def _four(quaternion: Any) -> Numbers:
     return x, y, z, w
 
 
-def quaternion_about_axis(angle: float, axis: Any) -> Numbers:
+def quaternion_about_axis(angle: float, axis: npt.ArrayLike) -> Numbers:
     """The turn by an angle about an axis of any length."""
     x, y, z = (float(part) for part in unit_vector(axis) * math.sin(angle / 2.0))
     return x, y, z, math.cos(angle / 2.0)
 
 
-def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> Numbers:
+def quaternion_multiply(quaternion1: Iterable[float], quaternion0: Iterable[float]) -> Numbers:
     """The turn by `quaternion0`, then by `quaternion1`."""
     return turns.multiply(_four(quaternion1), _four(quaternion0))
 
 
-def quaternion_conjugate(quaternion: Any) -> Matrix:
+def quaternion_conjugate(quaternion: Iterable[float]) -> Matrix:
     """With the signs of x, y and z changed: for one of length 1 the turn back."""
     x, y, z, w = _four(quaternion)
     return np.array((-x, -y, -z, w))
 
 
-def quaternion_inverse(quaternion: Any) -> Matrix:
+def quaternion_inverse(quaternion: Iterable[float]) -> Matrix:
     """The turn back."""
     numbers = np.array(_four(quaternion))
     return quaternion_conjugate(numbers) / np.dot(numbers, numbers)
 
 
-def quaternion_matrix(quaternion: Any) -> Matrix:
+def quaternion_matrix(quaternion: Iterable[float]) -> Matrix:
     """The turn as a 4 × 4 matrix; a quaternion of any length counts as if it had length 1."""
     numbers = _four(quaternion)
     matrix = np.identity(4)
@@ -185,7 +161,7 @@ def quaternion_matrix(quaternion: Any) -> Matrix:
     return matrix
 
 
-def quaternion_from_matrix(matrix: Any) -> Numbers:
+def quaternion_from_matrix(matrix: npt.ArrayLike) -> Numbers:
     """The turn in a matrix, with w not negative."""
     turn = np.array(matrix, dtype=np.float64)[:3, :3]
     parts = unit_vector(turns.turn_of((turn / np.linalg.norm(turn, axis=0)).tolist()))
@@ -193,37 +169,18 @@ def quaternion_from_matrix(matrix: Any) -> Numbers:
     return (-x, -y, -z, -w) if w < 0.0 else (x, y, z, w)
 
 
-def quaternion_slerp(quat0: Any, quat1: Any, fraction: float, spin: int = 0, shortestpath: bool = True) -> Any:
-    """The turn at a fraction of the way between two, at an even speed, with `spin` half turns more."""
-    start, end = unit_vector(_four(quat0)), unit_vector(_four(quat1))
-    if fraction in (0.0, 1.0):
-        return end if fraction else start
-    likeness = float(np.dot(start, end))
-    if abs(abs(likeness) - 1.0) < EPSILON:
-        return start
-    if shortestpath and likeness < 0.0:
-        likeness, end = -likeness, -end
-    angle = math.acos(likeness) + spin * math.pi
-    if abs(angle) < EPSILON:
-        return start
-    return (math.sin((1.0 - fraction) * angle) * start + math.sin(fraction * angle) * end) / math.sin(angle)
+def quaternion_slerp(quat0: npt.ArrayLike, quat1: npt.ArrayLike, fraction: float) -> Matrix:
+    """The turn at a fraction of the shorter way between two, at an even speed."""
+    start, end = _four(unit_vector(quat0)), _four(unit_vector(quat1))
+    return np.array(turns.slerp(start, end, fraction))
 
 
-def vector_norm(data: Any, axis: int | None = None, out: Any = None) -> Any:
-    """The length of a vector, or of the vectors along an axis; goes into `out` if that is given."""
-    lengths = np.sqrt(np.sum(np.square(np.asarray(data, dtype=np.float64)), axis=axis))
-    if out is not None:
-        out[...] = lengths
-        return None
-    return float(lengths) if np.ndim(data) == 1 else np.atleast_1d(lengths)
+def vector_norm(data: npt.ArrayLike) -> float:
+    """The length of a vector."""
+    return float(np.linalg.norm(data))
 
 
-def unit_vector(data: Any, axis: int | None = None, out: Any = None) -> Any:
-    """The same vector, or vectors along an axis, with length 1; goes into `out` if that is given."""
-    array = np.array(data, dtype=np.float64)
-    lengths = np.sqrt(np.sum(array * array, axis=axis, keepdims=axis is not None))
-    result = array / lengths if array.size else array
-    if out is not None:
-        out[...] = result
-        return None
-    return result
+def unit_vector(data: npt.ArrayLike) -> Matrix:
+    """The same vector with length 1."""
+    vector = np.array(data, dtype=np.float64)
+    return vector / np.linalg.norm(vector)
