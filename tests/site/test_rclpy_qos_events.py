@@ -324,11 +324,11 @@ def test_connections_come_and_go(run: Run) -> None:
         talker("x", plain, silent=(0, 99), matched=True), listener("x", plain, matched=True), visitor, seconds=4.0
     )
     assert [entry[::2] for entry in found if entry[1] == "talker"] == [
-        (0.0, (1, 1, 1, 1)),  # ever, new; now, change
-        (1.0, (2, 1, 2, 1)),
-        (2.0, (2, 0, 1, -1)),
+        (0.0, (1, 1, 1, 1)),  # ever, now; what is new of each
+        (1.0, (2, 2, 1, 1)),
+        (2.0, (2, 1, 0, -1)),
     ]
-    assert [entry[::2] for entry in found if entry[1] == "listener"] == [(0.0, (1, 1, 1, 1)), (3.0, (2, 1, 2, 1))]
+    assert [entry[::2] for entry in found if entry[1] == "listener"] == [(0.0, (1, 1, 1, 1)), (3.0, (2, 2, 1, 1))]
 
 
 def test_another_type_is_told_only_to_whoever_asks(run: Run, capsys: Capture) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import add
 from typing import TYPE_CHECKING, Any
 
 from .transport import nobody
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class End:
-    """One end of a topic. `tallies` holds what somebody listens to, by kind (see tally.py); the rest is not counted."""
+    """One end of a topic. `tallies` holds what somebody listens to, by kind; the rest is not counted."""
 
     def __init__(self, node: NodeEntry, topic: Topic, quality: Quality) -> None:
         self.node = node
@@ -32,32 +33,29 @@ class End:
     def listen(self, kind: str) -> Tally:
         """Count from now on, or go on counting, how often something of this kind happens.
 
-        What has happened already is reported to the first listener.
+        What has happened already is news for the first listener.
         """
-        tally = self.tallies.get(kind)
-        if tally is None:
-            tally = self.tallies[kind] = self._tally_of(kind)
-            if tally.news:
-                self.topic.simulation.at(self.topic.soon, _tell, tally)
-        return tally
+        if kind not in self.tallies:
+            self.tallies[kind] = self._tally_of(kind)
+        return self.tallies[kind]
 
-    def happens(self, kind: str, what: Any = 1) -> None:
+    def happens(self, kind: str, *steps: Any) -> None:
         """Something happens to this end now."""
         tally = self.tallies.get(kind)
         if tally is not None:
-            tally.add(what)
+            tally.add(*steps)
 
-    def will_happen(self, kind: str, what: Any = 1) -> None:
+    def will_happen(self, kind: str, *steps: int) -> None:
         """This end learns of something that has just happened to the other one, as soon as messages take to arrive."""
         if kind in self.tallies:
-            self.topic.simulation.at(self.topic.soon, self._learn, (kind, what))
+            self.topic.simulation.at(self.topic.soon, self._learn, (kind, *steps))
 
-    def _learn(self, news: tuple[str, Any]) -> None:
-        self.happens(*news)
-
-    def is_refused(self, kind: str, what: Any = 1) -> None:
+    def is_refused(self, kind: str, *what: Any) -> None:
         """This end meets one that it cannot be connected with. Told a moment later, when somebody listens."""
-        self.topic.simulation.at(self.topic.soon, self._learn, (kind, what))
+        self.topic.simulation.at(self.topic.soon, self._learn, (kind, *what))
+
+    def _learn(self, news: tuple[Any, ...]) -> None:
+        self.happens(*news)
 
     def connections(self) -> int:
         """With how many ends of the other side this one is connected."""
@@ -66,21 +64,7 @@ class End:
     def _tally_of(self, kind: str) -> Tally:
         if kind == INCOMPATIBLE_QOS:
             return Refusals()
-        if kind == MATCHED:
-            return begun(Matches(), self.connections(), self.connections())
-        return Tally()
-
-
-def begun(pair: Any, first: int, second: int) -> Any:
-    """A pair of numbers that begins with what is there already."""
-    pair.move(first, second)
-    pair.news = bool(first or second)
-    return pair
-
-
-def _tell(tally: Tally) -> None:
-    if tally.news:
-        tally.tell()
+        return Tally(self.connections(), self.connections()) if kind == MATCHED else Tally(0)
 
 
 # -- quality ------------------------------------------------------------------------------------------------------
@@ -136,84 +120,43 @@ MATCHED = "matched"
 
 
 class Tally:
-    """How often something has happened. `wake` is called whenever there is news."""
+    """Numbers that count what happens, beginning with what is there already. `wake` is called whenever there is news."""
 
-    def __init__(self) -> None:
-        self.total = 0
-        self.change = 0
-        self.news = False
+    def __init__(self, *numbers: int) -> None:
+        self._numbers = self._changes = numbers
+        self.news = any(numbers)
         self.wake: Callable[[], object] = nobody
 
-    def add(self, count: Any = 1) -> None:
-        """It has happened again."""
-        self.total += count
-        self.change += count
-        self.tell()
-
-    def tell(self) -> None:
-        """Wake the waiting callers."""
+    def add(self, *steps: Any) -> None:
+        """It has happened: the numbers change by so much."""
+        self._numbers = tuple(map(add, self._numbers, steps))
+        self._changes = tuple(map(add, self._changes, steps))
         self.news = True
         self.wake()
 
     def take(self) -> tuple[Any, ...]:
-        """Total, and how much of it is new since the last look."""
+        """The numbers, then their changes since the last look."""
+        taken = (*self._numbers, *self._changes)
+        self._changes = (0,) * len(self._numbers)
         self.news = False
-        counts = (self.total, self.change)
-        self.change = 0
-        return counts
+        return taken
 
 
 class Refusals(Tally):
     """How many ends of the other side could not be accepted, and because of which policy the last one was not."""
 
     def __init__(self) -> None:
-        super().__init__()
-        self.policy = "INVALID"
+        super().__init__(0)
+        self._policy = "INVALID"
 
-    def add(self, policy: Any = "INVALID") -> None:
+    def add(self, *steps: Any) -> None:
         """One more, because of this policy."""
-        self.policy = policy
-        super().add()
+        (self._policy,) = steps
+        super().add(1)
 
     def take(self) -> tuple[Any, ...]:
         """Total, change, and the policy's ROS name."""
-        return (*super().take(), self.policy)
-
-
-class Pair(Tally):
-    """Two numbers that go up and down together with how much they have changed."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._now = [0, 0]
-        self._changes = [0, 0]
-
-    def move(self, first: int, second: int) -> None:
-        """Both numbers change by so much."""
-        for index, step in enumerate((first, second)):
-            self._now[index] += step
-            self._changes[index] += step
-
-    def add(self, change: Any = (0, 0)) -> None:
-        """A pair of changes has happened."""
-        self.move(*change)
-        self.tell()
-
-    def take(self) -> tuple[Any, ...]:
-        """Both numbers, then their changes since the last look."""
-        self.news = False
-        counts = (*self._now, *self._changes)
-        self._changes = [0, 0]
-        return counts
-
-
-class Matches(Pair):
-    """How many ends of the other side this one has ever been connected with, and with how many it is now."""
-
-    def take(self) -> tuple[Any, ...]:
-        """Total, its change, current, its change."""
-        total, current, total_change, current_change = super().take()
-        return (total, total_change, current, current_change)
+        return (*super().take(), self._policy)
 
 
 # -- watchdog -----------------------------------------------------------------------------------------------------

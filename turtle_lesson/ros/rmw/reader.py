@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .endpoint import DEADLINE, LIVELINESS, End, Pair, Quality, Tally, Watchdog, begun
+from .endpoint import DEADLINE, LIVELINESS, End, Quality, Tally, Watchdog
 from .transport import nobody
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class Reader(End):
         if kind == LIVELINESS:
             writers = self.writers()
             alive = sum(writer.alive for writer in writers)
-            return begun(Pair(), alive, len(writers) - alive)
+            return Tally(alive, len(writers) - alive)
         return super()._tally_of(kind)
 
     def misses(self) -> None:

@@ -14,12 +14,6 @@ from .writer import Writer
 if TYPE_CHECKING:
     from ..sim.simulation import Simulation
 
-__all__ = [
-    "Reader",
-    "Topic",
-    "Writer",
-]
-
 
 class Topic:
     """A name with a type, and the two ends that meet there."""
@@ -89,7 +83,7 @@ def _introduce(writer: Writer, reader: Reader, same_type: bool) -> None:
     policy = writer.quality.refusal(reader.quality)
     if not same_type:
         for end in (writer, reader):
-            end.is_refused(INCOMPATIBLE_TYPE)
+            end.is_refused(INCOMPATIBLE_TYPE, 1)
     elif policy is None:
         writer.meet(reader)
     else:

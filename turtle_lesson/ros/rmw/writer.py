@@ -155,8 +155,8 @@ class Writer(End):
         self._choose_way(reader)
         self._plan()
         for end in (self, reader):
-            end.will_happen(MATCHED, (1, 1))
-        reader.will_happen(LIVELINESS, (1, 0) if self.alive else (0, 1))
+            end.will_happen(MATCHED, 1, 1)
+        reader.will_happen(LIVELINESS, *((1, 0) if self.alive else (0, 1)))
         if reader.quality.latched and reader.quality.reliable:
             self._greet(reader)  # those who come too late have to ask for it, as for what was lost
 
@@ -180,8 +180,8 @@ class Writer(End):
             line.linger()
         self._plan()
         for end in (self, reader):
-            end.will_happen(MATCHED, (0, -1))
-        reader.will_happen(LIVELINESS, (-1, 0) if self.alive else (0, -1))
+            end.will_happen(MATCHED, 0, -1)
+        reader.will_happen(LIVELINESS, *((-1, 0) if self.alive else (0, -1)))
         reader.misses()
 
     # -- deadline and liveliness -------------------------------------------------------------------------------------
@@ -202,14 +202,14 @@ class Writer(End):
             if not self.alive:
                 self.alive = True
                 for reader in self.readers:
-                    reader.will_happen(LIVELINESS, (1, -1))
+                    reader.will_happen(LIVELINESS, 1, -1)
 
     def _fall_silent(self, _: int) -> None:
         """The lease is over: this publisher counts as dead until it shows that it lives."""
         self.alive = False
-        self.happens(LIVELINESS)
+        self.happens(LIVELINESS, 1)
         for reader in self.readers:
-            reader.will_happen(LIVELINESS, (-1, 1))
+            reader.will_happen(LIVELINESS, -1, 1)
             reader.misses()
 
     def retire(self) -> None:

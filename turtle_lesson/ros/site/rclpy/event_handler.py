@@ -97,8 +97,8 @@ class QoSSubscriptionMatchedInfo(NamedTuple):
     """With how many partners there has been a connection, with how many there is one, and how that has changed."""
 
     total_count: int = 0
-    total_count_change: int = 0
     current_count: int = 0
+    total_count_change: int = 0
     current_count_change: int = 0
 
 
