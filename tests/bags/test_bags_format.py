@@ -191,7 +191,7 @@ def test_a_database_has_the_tables_of_rosbag2(database: Path) -> None:
     ask = lambda query: connection.execute(query).fetchall()  # noqa: E731
     tables = {
         name: [row[1] for row in ask(f"PRAGMA table_info({name})")]
-        for (name,) in ask("SELECT name FROM sqlite_master WHERE type='table'")
+        for (name,) in ask("SELECT name FROM sqlite_master WHERE type='table' AND name NOT LIKE 'sqlite_%'")
     }
     assert tables == {
         "schema": ["schema_version", "ros_distro"],

@@ -150,10 +150,11 @@ def test_what_is_registered_for_the_end_is_called_last_thing_first(
 def test_outside_of_programs_atexit_is_pythons(run: Run) -> None:
     count = atexit._ncallbacks()
     atexit.register(print)
+    assert atexit._ncallbacks() == count + 1
     atexit.unregister(print)
-    assert atexit._ncallbacks() == count + 1
+    count = atexit._ncallbacks()  # until Python 3.13, what was unregistered still counts
     assert run(lambda found: atexit.register(found.append, "at the end")) == ["at the end"]
-    assert atexit._ncallbacks() == count + 1
+    assert atexit._ncallbacks() == count
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no os.fork() on this system")

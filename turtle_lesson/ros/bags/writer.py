@@ -97,10 +97,13 @@ class BagWriter:
 def is_there(folder: Path) -> bool:
     """Whether there is something of that name. Raises BagError for what no file can be called."""
     try:
-        return folder.exists()
+        folder.stat()  # not exists(), which is False for a name too long since Python 3.14
+    except (FileNotFoundError, NotADirectoryError):
+        return False
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         raise BagError(f"a bag cannot be called {str(folder)[:80]!r}: {why}") from None
+    return True
 
 
 def _open(folder: Path, storage: str) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -128,8 +129,8 @@ class _Command:
         found: list[Found] = []
         for base in args.base_paths or ["."]:
             folder = (self.cwd / base).resolve()
-            if not folder.is_dir():
-                self._warn(f"the base path '{base}' doesn't exist", "colcon.colcon_core.package_discovery")
+            if not os.path.isdir(folder):
+                self._warn(f"the base path '{base[:100]}' doesn't exist", "colcon.colcon_core.package_discovery")
                 continue
             found += [each for each in discover(folder, self.cwd) if each.path not in {other.path for other in found}]
         return found
