@@ -429,7 +429,7 @@ def test_a_whole_number_for_a_double_gets_the_advice_that_everybody_needs_once(w
 def test_a_rule_that_is_none_is_shown_how_one_looks(world: World, rule: str) -> None:
     text = message_of(RCLError, lambda: rclpy.init(args=["prog", "--ros-args", "-p", rule]))
     assert text.startswith(f"failed to initialize rcl: Couldn't parse parameter override rule: '-p {rule}'. Error: ")
-    assert text.endswith("; a rule looks like name:=value")
+    assert text.endswith(" a rule looks like name:=value")
 
 
 @pytest.mark.parametrize(
@@ -460,7 +460,7 @@ def test_values_in_a_file_are_for_the_nodes_that_its_names_match(
     ("content", "complaint"),
     [
         ("n1:\n  speed: 1.0\n", "Cannot have a value before ros__parameters at line 2"),
-        ("n1: [1, 2\n", "Error parsing a event near line 1: expected ',' or ']'"),
+        ("n1: [1, 2\n", "Error parsing a event near line 2: expected ',' or ']'"),
         ("x\n", "Cannot have a value before ros__parameters at line 1: a file maps the names of nodes"),
         (
             "n1:\n  ros__parameters:\n    gains: [1, 2.5]\n",

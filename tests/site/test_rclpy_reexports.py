@@ -2,41 +2,25 @@
 
 from __future__ import annotations
 
-import importlib
+import typing
 
 import pytest
 import rclpy
-from rclpy._reexports import REEXPORTS
-
-LENT = [
-    (module, *name.partition("=")[::2], origin)
-    for module, origins in REEXPORTS.items()
-    for origin, names in origins.items()
-    for name in names.split()
-]
-
-
-@pytest.mark.parametrize(("module", "here", "there", "origin"), LENT)
-def test_a_borrowed_name_is_the_same_thing(module: str, here: str, there: str, origin: str) -> None:
-    lender = importlib.import_module(module)
-    lent = getattr(lender, here)
-    assert here in vars(lender) or lent is getattr(importlib.import_module(origin), there or here)
 
 
 def test_what_programs_write() -> None:
     from action_msgs.msg import GoalStatus as TrueStatus
     from rclpy.action.client import GoalStatus
     from rclpy.action.server import GoalStatus as OfServers
-    from rclpy.node import MsgType, ParameterDescriptor, Rate, ReentrantCallbackGroup, SetParametersResult
+    from rclpy.node import Optional, ParameterDescriptor, Rate, ReentrantCallbackGroup, SetParametersResult
     from rclpy.parameter import ParameterType
-    from rclpy.subscription import MsgType as OfSubscriptions
 
     assert GoalStatus is OfServers is TrueStatus
     assert ParameterDescriptor(type=ParameterType.PARAMETER_BOOL).type == 1
     assert SetParametersResult(successful=True).successful
     assert issubclass(ReentrantCallbackGroup, rclpy.callback_groups.CallbackGroup)
     assert Rate is rclpy.timer.Rate
-    assert MsgType is OfSubscriptions
+    assert Optional is typing.Optional
 
 
 def test_a_name_that_nobody_has() -> None:

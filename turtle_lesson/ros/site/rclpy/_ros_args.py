@@ -1,37 +1,61 @@
 """ROS arguments of a process: `--ros-args -r from:=to -p name:=value --params-file file --log-level level`.
 
-Facts: https://docs.ros.org/en/humble/How-To-Guides/Node-arguments.html, rcl's arguments.c, and recordings.
+Facts: https://docs.ros.org/en/humble/How-To-Guides/Node-arguments.html, rcl's arguments.c and lexer.c, its
+rcl_yaml_param_parser, and recordings.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cache
+from typing import Any, ClassVar
 
-from turtle_lesson.ros.rmw.names import Remap
+from turtle_lesson.ros.rmw.names import Remap, node_name_flaw
 
-from ._params_file import Entry, YamlValueError, read_parameter_file, tree, value_of
 from .exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
 from .impl.rcutils_logger import RcutilsLogger
 from .parameter import Parameter
 
-SWITCH = re.compile(r"--(enable|disable)-(rosout|stdout|external-lib)-logs")
+Entry = tuple[str, str, Any]
+"""Which nodes (a full name, or a pattern with `*` and `**`), the parameter's name, and its value."""
+
+SHORT = {"--remap": "-r", "--param": "-p", "--enclave": "-e"}
 FLAGS = {
-    **dict.fromkeys(("-r", "--remap"), "remap rule found"),
-    **dict.fromkeys(("-p", "--param"), "parameter override rule found"),
-    **dict.fromkeys(("--params-file", "--log-config-file"), "file path provided"),
-    **dict.fromkeys(("-e", "--enclave"), "enclave path provided"),
-    "--log-level": "log level provided",
-    "--log-file-name": "string prefix provided",
+    "-r": "remap rule",
+    "-p": "parameter override rule",
+    "-e": "enclave path",
+    "--params-file": "params file",
+    "--log-level": "log level",
+    "--log-config-file": "log config file",
+    "--log-file-name": "string prefix",
 }
-"""What must follow each flag."""
+"""What must follow each flag. Nothing comes of enclaves, which are all /, and no log files are written."""
+
+SWITCH = re.compile(r"--(enable|disable)-(rosout|stdout|external-lib)-logs")
+LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+
+TOKEN = r"(?:_(?!_)|(?=[A-Za-z]))(?:[A-Za-z0-9]++_?+)*+"
+NODE = rf"(?:(?P<node>(?!ros(?:service|topic)://){TOKEN}):(?!=))?"
+NAME = rf"(?:~?/)?{TOKEN}(?:/{TOKEN})*"
+PART = rf"(?:/|{TOKEN})+"
+REMAPS = {
+    "__node": re.compile(rf"{NODE}__(?:node|name):=(?P<new>{TOKEN})"),
+    "__ns": re.compile(rf"{NODE}__ns:=(?P<new>(?:/(?:{TOKEN})?)+)"),
+    "": re.compile(rf"{NODE}(?:ros(?P<only>service|topic)://)?(?P<name>{NAME}):=(?P<new>{NAME})"),
+}
+"""How rules are written that rename nodes, namespaces, and topics or services."""
+PARAMETER = re.compile(rf"{NODE}(?P<name>{PART}(?:\.{PART})*):=(?P<value>.+)", re.DOTALL)
 
 
 class ArgumentError(ValueError):
     """ROS arguments cannot be read."""
+
+
+class YamlValueError(ValueError):
+    """A YAML text is no parameter value; the text is ROS's, with advice."""
 
 
 @dataclass
@@ -45,18 +69,8 @@ class Arguments:
     switches: dict[str, bool] = field(default_factory=dict)
     """Whether logs go to `rosout`, `stdout` and `external-lib`, as far as that is said."""
     log_config_file: str = ""
-    unknown: list[str] = field(default_factory=list)
-    obsolete: list[str] = field(default_factory=list)
-    """Remapping rules that are given as ROS 2 had it before `--ros-args`."""
     others: list[str] = field(default_factory=list)
     """The words that are not ROS's."""
-
-    def warn_of_obsolete(self) -> None:
-        """Warn of rules that are given as ROS 2 had it before `--ros-args`."""
-        for rule in self.obsolete:
-            RcutilsLogger("rcl").warning(
-                f"Found remap rule '{rule}'. This syntax is deprecated. Use '--ros-args --remap {rule}' instead."
-            )
 
     def parameters_of(self, full_name: str) -> list[Parameter]:
         """The values for the node of this full name.
@@ -77,29 +91,38 @@ class Arguments:
 def parse_arguments(words: list[str]) -> Arguments:
     """Read the ROS arguments among a process's arguments, which stand between `--ros-args` and `--`.
 
-    Raises ArgumentError for what cannot be read, UnknownROSArgsError for what means nothing.
+    Raises ArgumentError for what cannot be read, UnknownROSArgsError for what means nothing. A warning is logged for each
+    remapping rule that is given as ROS 2 had it before `--ros-args`.
     """
-    if not isinstance(words, list):
+    if not isinstance(words, list) or not all(isinstance(word, str) for word in words):
         raise TypeError(f"arguments must be a list of str, as sys.argv is, got {words!r}")
     found = Arguments()
+    unknown: list[str] = []
     inside = False
     iterator = iter(words)
     for word in iterator:
-        if not isinstance(word, str):
-            raise TypeError(f"arguments must be a list of str, got {word!r} in it")
         if word == "--ros-args":
             inside = True
         elif word == "--" and inside:
             inside = False
+        elif inside and (flag := SHORT.get(word, word)) in FLAGS:
+            value = next(iterator, None)
+            if value is None:
+                raise ArgumentError(f"Couldn't parse trailing {word} flag. No {FLAGS[flag]} found.")
+            _take(flag, value, found)
+        elif inside and (switch := SWITCH.fullmatch(word)) is not None:
+            found.switches[switch[2]] = switch[1] == "enable"
         elif inside:
-            _take(word, iterator, found)
-        elif ":=" in word and is_remap(word):
-            found.remaps.append(read_remap(word))
-            found.obsolete.append(word)
+            unknown.append(word)
+        elif (rule := read_remap(word)) is not None:
+            found.remaps.append(rule)
+            RcutilsLogger("rcl").warning(
+                f"Found remap rule '{word}'. This syntax is deprecated. Use '--ros-args --remap {word}' instead."
+            )
         else:
             found.others.append(word)
-    if found.unknown:
-        error = UnknownROSArgsError(str(found.unknown))
+    if unknown:
+        error = UnknownROSArgsError(str(unknown))
         error.add_note("-r, -p, --params-file, --log-level and similar options follow --ros-args; -- ends them.")
         raise error
     return found
@@ -108,60 +131,48 @@ def parse_arguments(words: list[str]) -> Arguments:
 def own_arguments(words: list[str]) -> Arguments:
     """As `parse_arguments`, for what is read after `rclpy.init()`: raises RCLInvalidROSArgsError for ArgumentError."""
     try:
-        found = parse_arguments(words)
+        return parse_arguments(words)
     except ArgumentError as error:
         raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
-    found.warn_of_obsolete()
-    return found
 
 
-def _take(word: str, following: Iterator[str], found: Arguments) -> None:
-    """Read one flag, with the value that follows it, into what was found so far."""
-    if word in {"-r", "--remap"}:
-        rule = _next(word, following)
-        example = "old_name:=new_name" + (", a namespace like __ns:=/group" if "__ns" in rule else "")
-        with _explained(f"remap rule: '-r {rule}'", f"; a rule looks like {example}"):
-            found.remaps.append(read_remap(rule))
-    elif word in {"-p", "--param"}:
-        rule = _next(word, following)
-        with _explained(f"parameter override rule: '-p {rule}'", "; a rule looks like name:=value"):
-            node, name, text = read_parameter(rule)
-            value = tree(text)
-            found.parameters.append((node or "/**", name, None if value is None else value_of(value)))
-    elif word == "--params-file":
-        path = _next(word, following)
-        with _explained(f"params file: '--params-file {path}'"):
-            found.parameters.extend(read_parameter_file(path))
-    elif word == "--log-level":
-        rule = _next(word, following)
-        with _explained(f"log level: '--log-level {rule}'"):
-            name, level = read_log_level(rule)
-            found.log_levels[name] = level
-    elif word == "--log-config-file":
-        found.log_config_file = _next(word, following)
-    elif word in {"-e", "--enclave", "--log-file-name"}:
-        _next(word, following)  # all enclaves are /, and no log files are written
-    elif (switch := SWITCH.fullmatch(word)) is not None:
-        found.switches[switch[2]] = switch[1] == "enable"
-    else:
-        found.unknown.append(word)
-
-
-def _next(word: str, following: Iterator[str]) -> str:
-    for value in following:
-        return value
-    flag = f"log level flag: '{word}'" if word == "--log-level" else f"{word} flag"
-    raise ArgumentError(f"Couldn't parse trailing {flag}. No {FLAGS[word]}.")
-
-
-@contextmanager
-def _explained(what: str, example: str = "") -> Iterator[None]:
-    """Raise ArgumentError for a value that cannot be read: which it is, why, and for a rule what one looks like."""
+def _take(flag: str, value: str, found: Arguments) -> None:
+    """Add what a flag and its value say to what was found so far."""
     try:
-        yield
-    except (RuleError, YamlValueError) as error:
-        advice = example if isinstance(error, RuleError) else ""
-        raise ArgumentError(f"Couldn't parse {what}. Error: {error}{advice}") from None
+        if flag == "-r":
+            rule = read_remap(value)
+            if rule is None:
+                namespace = ", a namespace like __ns:=/group" if "__ns" in value else ""
+                raise YamlValueError(f"a rule looks like old_name:=new_name{namespace}")
+            found.remaps.append(rule)
+        elif flag == "-p":
+            match = PARAMETER.fullmatch(value)
+            if match is None:
+                raise YamlValueError("a rule looks like name:=value")
+            node = tree(match["value"])
+            found.parameters.append((match["node"] or "/**", match["name"], None if node is None else value_of(node)))
+        elif flag == "--params-file":
+            found.parameters.extend(read_parameter_file(value))
+        elif flag == "--log-level":
+            logger, separator, level = value.rpartition(":=")
+            if level.upper() not in LEVELS or (separator and not logger):
+                known = ", ".join(LEVELS[1:])
+                raise YamlValueError(f"Argument does not use a valid severity level; levels are {known}")
+            found.log_levels[logger] = level
+        elif flag == "--log-config-file":
+            found.log_config_file = value
+    except YamlValueError as error:
+        raise ArgumentError(f"Couldn't parse {FLAGS[flag]}: '{flag} {value}'. Error: {error}") from None
+
+
+def read_remap(rule: str) -> Remap | None:
+    """`[node:]from:=to`, `[node:]__node:=name` or `[node:]__ns:=/namespace`; None for anything else."""
+    for kind, pattern in REMAPS.items():
+        if (match := pattern.fullmatch(rule)) is not None:
+            words = match.groupdict()
+            is_service = {"service": True, "topic": False}.get(words.get("only", ""))
+            return Remap(kind or words["name"], words["new"], words["node"], is_service)
+    return None
 
 
 def pattern_matches(pattern: str, full_name: str) -> bool:
@@ -172,178 +183,142 @@ def pattern_matches(pattern: str, full_name: str) -> bool:
     return re.fullmatch(expression, full_name) is not None
 
 
-# How the rules are written. Facts: rcl's lexer.c and arguments.c (which names may stand where, and the words of the errors),
-# and recordings of them.
+# -- parameter files, and which value a text has ----------------------------------------------------------------------
 
-LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
-NONE, EOF, TILDE_SLASH, SERVICE_URL, TOPIC_URL, COLON, NODE, NS, SEPARATOR, REFERENCE = range(10)
-TOKEN, SLASH, ONE, MANY, DOT = range(18, 23)  # the numbers stand in errors
-WORD = r"(?:_(?!_)|(?=[A-Za-z]))(?:[A-Za-z0-9]+_?)*"
-NODE_PREFIX = re.compile(rf"(?!ros(?:service|topic)://)({WORD}):(?!=)")
-LEXEMES = [
-    (SERVICE_URL, re.compile("rosservice://")),
-    (TOPIC_URL, re.compile("rostopic://")),
-    (NODE, re.compile("__(node|name)")),
-    (NS, re.compile("__ns")),
-    (TOKEN, re.compile(WORD)),
-    (TILDE_SLASH, re.compile("~/")),
-    (SEPARATOR, re.compile(":=")),
-    (COLON, re.compile(":")),
-    (SLASH, re.compile("/")),
-    (MANY, re.compile(r"\*\*")),
-    (ONE, re.compile(r"\*")),
-    (DOT, re.compile(r"\.")),
-    (REFERENCE, re.compile(r"\\[1-9]")),
-    (EOF, re.compile(r"\Z")),
-]
+KEY = "ros__parameters"
+
+TRUE = frozenset(["Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"])
+FALSE = frozenset(["N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"])
+WHOLE = re.compile(r"[-+]?(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
+DECIMAL = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
+SPECIAL = re.compile(r"[-+]?\.?(inf|Inf|INF)|\.?(nan|NaN|NAN)|[-+]?(infinity|Infinity|nan)")
+TEXT = "tag:yaml.org,2002:str"
+"""The tag of what is marked as text: `!!str 1`."""
+NAMES: dict[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}
 
 
-class RuleError(ValueError):
-    """A rule is not written as it should be."""
+def read_parameter_file(path: str) -> list[Entry]:
+    """The values in a file, in its order; names of nested parameters are joined by dots. Raises YamlValueError."""
+    from turtle_lesson.ros.runtime.bounded_yaml import LONGEST
 
-
-class Reader:
-    """Reads a rule piece by piece."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.at = 0
-
-    def next(self) -> int:
-        """The kind of the next piece."""
-        return self._look()[0]
-
-    def _look(self) -> tuple[int, int]:
-        for kind, pattern in LEXEMES:
-            if (match := pattern.match(self.text, self.at)) is not None:
-                return kind, match.end()
-        return NONE, self.at + 1
-
-    def take(self) -> str:
-        """The next piece, which is left behind."""
-        start, self.at = self.at, self._look()[1]
-        return self.text[start : self.at]
-
-    def expect(self, wanted: int) -> str:
-        """The next piece, which must be of a kind; RuleError if it is not."""
-        kind = self.next()
-        if kind == wanted:
-            return self.take()
-        if kind in (NONE, EOF):
-            raise RuleError(f"Expected lexeme type ({wanted}) not found, search ended at index {self.at}")
-        raise RuleError(f"Expected lexeme type {wanted}, got {kind} at index {self.at}")
-
-    def skip(self, *kinds: int) -> None:
-        """Leave the next piece behind if it is of one of these kinds."""
-        if self.next() in kinds:
-            self.take()
-
-
-def read_remap(rule: str) -> Remap:
-    """`[node:]from:=to`, `[node:]__node:=name` or `[node:]__ns:=/namespace`. RuleError for anything else."""
-    reader = Reader(rule)
-    node = _node_prefix(reader)
-    kind = reader.next()
-    start = reader.at
-    if kind in (NODE, NS):
-        reader.take()
-        name, is_service = ("__ns" if kind == NS else "__node"), None
-    else:
-        is_service = {SERVICE_URL: True, TOPIC_URL: False}.get(kind)
-        reader.skip(SERVICE_URL, TOPIC_URL)
-        start = reader.at
-        _name(reader, SEPARATOR)
-        name = rule[start : reader.at]
-    reader.expect(SEPARATOR)
-    start = reader.at
-    if kind == NODE:
-        reader.expect(TOKEN)
-        reader.expect(EOF)
-    elif kind == NS:
-        reader.expect(SLASH)
-        reader.skip(TOKEN)
-        while reader.next() == SLASH:
-            reader.take()
-            reader.skip(TOKEN)
-        reader.expect(EOF)
-    else:
-        _name(reader, EOF, is_new=True)
-    return Remap(name, rule[start:], node, is_service)
-
-
-def read_parameter(rule: str) -> tuple[str | None, str, str]:
-    """`[node:]name:=value`: the node, the parameter and the value's text. RuleError for anything else."""
-    reader = Reader(rule)
-    node = _node_prefix(reader)
-    start = reader.at
-    _parameter_part(reader)
-    while reader.next() != SEPARATOR:
-        reader.expect(DOT)
-        _parameter_part(reader)
-    name = rule[start : reader.at]
-    reader.take()
-    if reader.next() == EOF:
-        raise RuleError("a value is missing")
-    return node, name, rule[reader.at :]
-
-
-def read_log_level(rule: str) -> tuple[str, str]:
-    """`level` or `logger:=level`: the logger ('' for all) and the level. RuleError for anything else."""
-    name, separator, level = rule.partition(":=")
-    if separator and not name:
-        raise RuleError("Argument has an invalid logger item that name is empty")
-    if separator:
-        reader = Reader(rule)
-        reader.at = len(name) + len(separator)
-        level = reader.expect(TOKEN)
-        reader.expect(EOF)
-    else:
-        level, name = rule, ""
-    if level.upper() not in LEVELS:
-        known = ", ".join(LEVELS[1:])
-        raise RuleError(f"Argument does not use a valid severity level; levels are {known}")
-    return name, level
-
-
-def is_remap(word: str) -> bool:
-    """Whether a word is a rule for renaming."""
     try:
-        read_remap(word)
-    except RuleError:
-        return False
-    return True
+        with open(path, encoding="utf-8") as file:
+            text = file.read(LONGEST + 1)
+    except (OSError, ValueError) as error:
+        raise YamlValueError(f"Error opening YAML file: {getattr(error, 'strerror', None) or error}") from None
+    found = tree(text)
+    return [] if found is None else list(_nodes(found, []))
 
 
-def _node_prefix(reader: Reader) -> str | None:
-    match = NODE_PREFIX.match(reader.text)
-    if match is None:
-        return None
-    reader.at = match.end()
-    return match[1]
+def _nodes(found: Any, names: list[str]) -> Iterator[Entry]:
+    """The entries below some names of namespaces and nodes."""
+    for key, name, value in _pairs(found):
+        if name != KEY:
+            if value.value != "":  # a name with nothing below it
+                yield from _nodes(value, [*names, name])
+            continue
+        if not names:
+            raise YamlValueError(f"There are no node names before {KEY} at line {line_of(key)}")
+        node = "/".join(names)
+        for part in node.removeprefix("/").split("/"):
+            flaw = None if part in ("*", "**") else node_name_flaw(part)
+            if flaw is not None:
+                raise YamlValueError(f"{flaw.reason} (it is '{node}', before line {line_of(key)})")
+        yield from ((node, parameter, value) for parameter, value in _parameters(value, ""))
 
 
-def _name(reader: Reader, end: int, *, is_new: bool = False) -> None:
-    """Read a name up to what ends it: that of something, or the new one that it gets."""
-    reader.skip(TILDE_SLASH, SLASH)
-    _token(reader, is_new=is_new)
-    while reader.next() != end:
-        reader.expect(SLASH)
-        _token(reader, is_new=is_new)
+def _parameters(found: Any, prefix: str) -> Iterator[tuple[str, Any]]:
+    """The parameters below a prefix."""
+    for _, name, value in _pairs(found):
+        if value.id == "mapping":
+            yield from _parameters(value, f"{prefix}{name}.")
+        else:
+            yield (prefix + name, value_of(value))
 
 
-def _token(reader: Reader, *, is_new: bool = False) -> None:
-    kind = reader.next()
-    if kind == REFERENCE and is_new:
-        raise RuleError("Backreferences are not implemented")
-    if kind in (ONE, MANY) and not is_new:
-        raise RuleError(f"Wildcard '{reader.take()}' is not implemented")
-    if kind != TOKEN:
-        raise RuleError(f"a name is expected at index {reader.at}" if is_new else "Expecting token or wildcard")
-    reader.take()
+def _pairs(found: Any) -> Iterator[tuple[Any, str, Any]]:
+    """What a mapping maps, as keys with their texts and values. Raises YamlValueError for anything but a mapping of names."""
+    if found.id != "mapping":
+        raise YamlValueError(
+            f"Cannot have a value before {KEY} at line {line_of(found)}: a file maps the names of nodes to `{KEY}:`, and "
+            "that to the names of parameters"
+        )
+    for key, value in found.value:
+        if key.id != "scalar" or not key.value:
+            raise YamlValueError(f"A list, a mapping or nothing cannot be a name at line {line_of(key)}")
+        yield key, key.value, value
 
 
-def _parameter_part(reader: Reader) -> None:
-    if reader.next() not in (TOKEN, SLASH):
-        _token(reader)
-    while reader.next() in (TOKEN, SLASH):
-        reader.take()
+def scalar(text: str) -> Any:
+    """The value of an unquoted word by ROS's rules (rcl_yaml_param_parser's parse.c), not those of YAML.
+
+    So `0x10` and `010` are numbers, `y` is true, `1_000` and `12:30` are texts, and so are dates.
+    """
+    if text in TRUE or text in FALSE:
+        return text in TRUE
+    if WHOLE.fullmatch(text):
+        digits = text.lstrip("+-")
+        base = 16 if digits[:2] in ("0x", "0X") else 8 if digits.startswith("0") else 10
+        number = int(digits, base) * (-1 if text.startswith("-") else 1)
+        if -(2**63) <= number < 2**63:
+            return number
+    if SPECIAL.fullmatch(text):
+        return float(text.replace(".", ""))
+    value = float(text) if DECIMAL.fullmatch(text) else math.inf
+    return text if math.isinf(value) else value
+
+
+def value_of(node: Any) -> Any:
+    """The value of a node of YAML's tree; of an empty list it is None, as in ROS. Raises YamlValueError."""
+    items = node.value if node.id == "sequence" else [node]
+    values = []
+    for item in items:
+        if item.id != "scalar":
+            line = line_of(item)
+            raise YamlValueError(
+                f"Unknown YAML event at line {line}: a value, or a list of plain values, is expected here"
+            )
+        is_text = item.style in ("'", '"') or item.tag == TEXT
+        if not item.value and not is_text:
+            raise YamlValueError(f'No value at line {line_of(item)}; an empty text is written ""')
+        values.append(item.value if is_text else scalar(item.value))
+        if type(values[-1]) is not type(values[0]):
+            raise YamlValueError(
+                f"Sequence should be of same type. Value type '{NAMES[type(values[-1])]}' do not belong at line_num "
+                f"{line_of(item)}; write 1.0 for a whole number among others"
+            )
+    return values[0] if node.id == "scalar" else values or None
+
+
+def line_of(node: Any) -> int:
+    """The line of a node of YAML's tree, counted from 1."""
+    return node.start_mark.line + 1
+
+
+@cache
+def _loader() -> Any:
+    """A reader of YAML that leaves it to us what an unmarked word means, and refuses aliases."""
+    from turtle_lesson.ros.runtime.bounded_yaml import BoundedLoader
+
+    class Loader(BoundedLoader):
+        yaml_implicit_resolvers: ClassVar[dict[str, Any]] = {}
+        DEFAULT_SCALAR_TAG = "unmarked"
+
+        def _count_alias(self, event: Any) -> None:
+            raise YamlValueError(f"Will not support aliasing at line {line_of(event)}: write the value once more")
+
+    return Loader
+
+
+def tree(text: str) -> Any:
+    """The tree of a YAML text, None of an empty one. Raises YamlValueError for what is no YAML, or has aliases."""
+    import yaml
+
+    try:
+        return _loader()(text).get_single_node()
+    except YamlValueError:
+        raise
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        mark = getattr(error, "problem_mark", None)
+        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
+        raise YamlValueError(f"Error parsing a event near line {mark.line + 1 if mark else 0}: {problem}") from None

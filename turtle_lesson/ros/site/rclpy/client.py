@@ -16,7 +16,6 @@ from ._blocking import drives_the_simulation
 from ._deadlock import Words, is_notebook, why_never_answered
 from ._entity import CLIENT, Entity
 from ._hints import shown
-from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
 from .task import Future, at_once
@@ -207,6 +206,3 @@ class Client(Entity):
         if not self._destroyed:
             super().destroy()
             self._of_node._ros_graph.remove_client(self._end)
-
-
-__getattr__ = reexported(__name__)

@@ -49,22 +49,17 @@ class Context:
             raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
         if self.initialized:
             raise RuntimeError("Context.init() must only be called once")
-        self.arguments = self._read(self._process.argv if args is None else args)
+        try:
+            self.arguments = parse_arguments(self._process.argv if args is None else args)
+        except ArgumentError as error:
+            RcutilsLogger("rcl").error("Failed to parse global arguments")
+            raise RCLError(f"failed to initialize rcl: {error}") from None
         self._domain_id = domain_id or 0
         self.initialized = True
         self._state.contexts.append(self)
         if initialize_logging:
             self._set_up_logging()
         self._process.at_exit.append(self._end)  # what the process leaves behind disappears
-
-    def _read(self, args: list[str]) -> Arguments:
-        try:
-            arguments = parse_arguments(args)
-        except ArgumentError as error:
-            RcutilsLogger("rcl").error("Failed to parse global arguments")
-            raise RCLError(f"failed to initialize rcl: {error}") from None
-        arguments.warn_of_obsolete()
-        return arguments
 
     def _set_up_logging(self) -> None:
         if self.arguments.log_config_file:

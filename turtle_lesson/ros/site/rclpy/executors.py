@@ -31,7 +31,6 @@ from ._executor_base import (
     TimeoutException,
     TimeoutObject,
 )
-from ._reexports import reexported
 from ._spin_until import spin_until
 from ._state import RclpyState
 from .context import Context
@@ -405,6 +404,3 @@ class _Worker:
                 executor._failures.append(error)
             executor._idle.append(self)
             executor.wake()
-
-
-__getattr__ = reexported(__name__)

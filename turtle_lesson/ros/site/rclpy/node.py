@@ -13,11 +13,10 @@ from turtle_lesson.ros.sim.errors import shown_path
 from turtle_lesson.ros.sim.simulation import EPOCH, NANOSECONDS
 
 from ._entity import Handle
-from ._hints import set_by_init
+from ._hints import find_taken, set_by_init
 from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
 from ._node_parameters import TOLERANCE, NodeParameters
-from ._reexports import reexported
 from ._ros_args import Arguments, own_arguments
 from ._state import RclpyState
 from .callback_groups import CallbackGroup
@@ -304,4 +303,4 @@ def _names(node_name: str, namespace: str | None, remaps: list[Remap]) -> tuple[
     return node_name, namespace
 
 
-__getattr__ = reexported(__name__)
+__getattr__ = find_taken(__name__)

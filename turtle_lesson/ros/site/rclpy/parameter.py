@@ -7,7 +7,7 @@ from enum import Enum
 from types import GenericAlias
 from typing import Any
 
-from ._reexports import reexported
+from ._hints import find_taken
 
 PARAMETER_SEPARATOR_STRING = "."
 
@@ -205,4 +205,4 @@ def _flat(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-__getattr__ = reexported(__name__)
+__getattr__ = find_taken(__name__)

@@ -9,7 +9,6 @@ from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 
 from ._blocking import drives_the_simulation
-from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .client import POLL, Client
 from .parameter import Parameter, parameter_dict_from_yaml_file
@@ -144,6 +143,3 @@ class AsyncParameterClient:
 
 def _messages(parameters: Sequence[Any]) -> list[Any]:
     return [each.to_parameter_msg() if isinstance(each, Parameter) else each for each in parameters]
-
-
-__getattr__ = reexported(__name__)

@@ -13,7 +13,6 @@ from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 from ._blocking import drives_the_simulation
 from ._entity import Handle
 from ._hints import no_message
-from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .duration import Duration
 from .event_handler import EventHandler, PublisherEventCallbacks
@@ -148,6 +147,3 @@ def _wait_for_all_acked(writer: Writer, timeout: int) -> bool:
         look = max(look, simulation.now + 1)
         simulation.sleep_until(look if deadline is None else min(look, deadline))
     return True
-
-
-__getattr__ = reexported(__name__)

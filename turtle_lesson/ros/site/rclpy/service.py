@@ -10,7 +10,6 @@ from turtle_lesson.ros.idl import checks
 from turtle_lesson.ros.rmw.service import ServerEnd
 
 from ._entity import SERVICE, Entity
-from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .qos import QoSProfile
 
@@ -83,6 +82,3 @@ class Service(Entity):
         if not self._destroyed:
             super().destroy()
             self._server.node.process.world.graph.remove_server(self._server)
-
-
-__getattr__ = reexported(__name__)

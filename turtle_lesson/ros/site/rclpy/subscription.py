@@ -14,7 +14,6 @@ from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.simulation import EPOCH
 
 from ._entity import SUBSCRIPTION, Entity
-from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .event_handler import EventHandler, SubscriptionEventCallbacks
 from .qos import QoSProfile
@@ -110,6 +109,3 @@ def _wants_info(callback: Callable[..., Any] | None) -> bool:
         return False
     needed = [each for each in parameters if each.default is each.empty and each.kind in (0, 1)]
     return len(needed) == 2
-
-
-__getattr__ = reexported(__name__)

@@ -10,7 +10,6 @@ from turtle_lesson.ros.sim.strand import Strand
 
 from ._blocking import somebody_spins
 from ._deadlock import holds_group
-from ._reexports import reexported
 from .clock import ROSClock
 from .clock_type import ClockType
 from .parameter import Parameter
@@ -158,6 +157,3 @@ class TimeSource:
             "meanwhile, so its time stands still. Use a timer; or a MultiThreadedExecutor, with this callback in a group "
             "of its own."
         )
-
-
-__getattr__ = reexported(__name__)

@@ -18,7 +18,6 @@ from ._blocking import WakeUp, drives_the_simulation, somebody_spins
 from ._deadlock import is_notebook
 from ._entity import TIMER, Entity
 from ._hints import shown
-from ._reexports import reexported
 from .callback_groups import CallbackGroup
 from .clock import ROSClock
 from .constants import S_TO_NS
@@ -297,6 +296,3 @@ class Rate:
         self._is_destroyed = True
         for wake_up in self._sleepers:
             wake_up.wake()
-
-
-__getattr__ = reexported(__name__)

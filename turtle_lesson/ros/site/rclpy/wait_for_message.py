@@ -9,7 +9,6 @@ from turtle_lesson.ros.sim.strand import running_strand
 
 from ._blocking import WakeUp, drives_the_simulation
 from ._entity import Assignment
-from ._reexports import reexported
 
 if TYPE_CHECKING:
     from .node import Node
@@ -38,6 +37,3 @@ def wait_for_message(
         return (True, subscription._take()[0]) if subscription._has_work() else (False, None)
     finally:
         node.destroy_subscription(subscription)
-
-
-__getattr__ = reexported(__name__)

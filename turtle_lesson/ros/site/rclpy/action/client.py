@@ -17,7 +17,6 @@ from turtle_lesson.ros.sim.strand import running_strand
 from .._blocking import drives_the_simulation
 from .._deadlock import Words, why_never_answered, why_nobody_offers
 from .._hints import shown
-from .._reexports import reexported
 from ..callback_groups import CallbackGroup
 from ..client import Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -285,6 +284,3 @@ class ClientGoalHandle:
     def get_result_async(self) -> Future:
         """Ask for the goal's result; the future will have its `status` and `result` when it has ended."""
         return self._action_client._get_result_async(self)
-
-
-__getattr__ = reexported(__name__)

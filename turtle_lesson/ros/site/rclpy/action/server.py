@@ -22,7 +22,6 @@ from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.errors import print_error
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 
-from .._reexports import reexported
 from .._tracing import name_of
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
@@ -340,6 +339,3 @@ class ActionServer(ActionEndpoint):
             handle.destroy()
         self._goals.clear()
         self._expiring.clear()
-
-
-__getattr__ = reexported(__name__)
