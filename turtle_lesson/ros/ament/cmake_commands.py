@@ -9,6 +9,7 @@ import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import dropwhile
 from pathlib import Path, PurePosixPath
 
 from ..idl import names
@@ -16,7 +17,7 @@ from ..idl.model import Definition, DuplicateName, InvalidDefinition, MessageDef
 from ..idl.names import did_you_mean, module_name
 from ..idl.registry import PARSERS, Registry
 from ..sim.errors import shown_path
-from .cmake import Command, split_at
+from .cmake import Command, until
 from .install_tree import PYTHON_FOLDERS, Item, files_in
 from .manifest import Found
 from .package import SHARE, BuildFailure, filled, refused
@@ -27,118 +28,108 @@ _INSTALL_WORDS = {
     "COMPONENT", "OPTIONAL", "TYPE", "EXCLUDE_FROM_ALL", "USE_SOURCE_PERMISSIONS", "PATTERN", "REGEX",
     "EXCLUDE", "FILES_MATCHING", "MESSAGE_NEVER",
 }  # fmt: skip
-_RUNS = "OWNER_EXECUTE"
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A file or folder that `install(…)` names, and the folder it goes to.
+    """A file or folder that an `install(…)` names, the folder it goes to, and its name there.
 
-    A folder whose name ends in `/` gives its content instead of itself, as in CMake.
+    A folder whose name ends in `/` gives its content instead of itself, as in CMake, and has no name.
     """
 
     kind: str
-    source: str
+    source: Path
     destination: str
     name: str
-    line: int
-    options: tuple[str, ...] = ()
+    command: Command
 
 
-def install_entries(found: Found, command: Command) -> list[Entry]:
-    """What one `install(…)` names.
+def install_entries(found: Found, command: Command, *, cpp: bool) -> list[Entry]:
+    """What one `install(…)` names, where the package builds C++ without its targets.
 
     Raises BuildFailure where CMake would refuse it, or the files go elsewhere than into the package's install folder.
     """
-    where = f"CMakeLists.txt:{command.line} (install)"
-    if not command.args:
-        return []
-    kind = command.args[0]
-    names, options = split_at(command.args[1:], _INSTALL_WORDS)
+    kind, *given = command.args or ("",)
+    files = until(_INSTALL_WORDS, given)
     if kind not in _INSTALLS:
         hint = did_you_mean(kind, _INSTALLS) or f"Known are {', '.join(_INSTALLS[:3])}."
-        raise refused(f"install does not recognize sub-command {kind}", where, hint)
-    if kind == "TARGETS":
-        hint = "A Python program is installed with install(PROGRAMS …)."
-        raise refused(f'install TARGETS given target "{" ".join(names[:1])}" which does not exist.', where, hint)
+        raise refused(f"install does not recognize sub-command {kind}", command.where, hint)
+    if kind == "TARGETS" and not cpp:
+        text = f'install TARGETS given target "{" ".join(files[:1])}" which does not exist.'
+        raise refused(text, command.where, "A Python program is installed with install(PROGRAMS …).")
     if kind in _INSTALLS[3:]:
         return []
-    for name in names if kind != "DIRECTORY" else ():
+    for name in files if kind != "DIRECTORY" else ():
         if (found.path / name).is_dir():
             hint = f"Write install(DIRECTORY {name} …)."
-            raise refused(f'install {kind} given directory "{name}" to install.', where, hint)
-    values = {
-        word: "".join(split_at(options[place + 1 :][:1], _INSTALL_WORDS)[0]) for place, word in enumerate(options)
-    }
-    destination, rename = values.get("DESTINATION", ""), values.get("RENAME", "")
-    if rename and len(names) > 1:
+            raise refused(f'install {kind} given directory "{name}" to install.', command.where, hint)
+    destination, rename = command.after("DESTINATION"), command.after("RENAME")
+    if rename and len(files) > 1:
         hint = "RENAME gives a single name, so install one program at a time: install(PROGRAMS a.py …)."
-        raise refused(f"install {kind} given RENAME option with more than one file.", where, hint)
+        raise refused(f"install {kind} given RENAME option with more than one file.", command.where, hint)
     if not destination:
         hint = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}."
-        raise refused(f"install {kind} given no DESTINATION!", where, hint)
+        raise refused(f"install {kind} given no DESTINATION!", command.where, hint)
     place = PurePosixPath(destination)
     if place.is_absolute() or ".." in place.parts or ":" in destination:
         text = f"DESTINATION {destination} lies outside the package's install folder"
         hint = "Use lib/${PROJECT_NAME} for programs and share/${PROJECT_NAME} for everything else: "
-        hint += f"share/{found.name}."
-        raise refused(text, where, hint)
-    destination = destination.rstrip("/")
-    own = {name: "" if kind == "DIRECTORY" and name.endswith("/") else rename or Path(name).name for name in names}
-    return [Entry(kind, name, destination, own[name], command.line, options) for name in names]
+        raise refused(text, command.where, f"{hint}share/{found.name}.")
+    return [
+        Entry(
+            kind=kind,
+            source=found.path / name,
+            destination=destination.rstrip("/"),
+            name="" if kind == "DIRECTORY" and name.endswith("/") else rename or Path(name).name,
+            command=command,
+        )
+        for name in files
+    ]
 
 
-def asks_for_python(found: Found, entry: Entry) -> bool:
+def runs_python(entry: Entry) -> bool:
     """Whether an entry is no program, or one that can run here: its first line, if there is one, names no other interpreter."""
-    first = _first_line(found.path / entry.source)
+    first = _first_line(entry.source)
     return entry.kind != "PROGRAMS" or not first.startswith("#!") or "python" in first
 
 
 def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item]:
     """Where one entry goes, a folder file by file. What would be wrong on a robot although it builds is added to `hints`."""
-    folder, is_program = found.path, entry.kind == "PROGRAMS"
-    source = folder / entry.source
-    where = f"CMakeLists.txt:{entry.line} (install)"
-    if not source.resolve().is_relative_to(folder.resolve()):
-        raise refused(f"{entry.source} lies outside the package's folder", where, "Put the files into the package.")
+    source, is_program, at = entry.source, entry.kind == "PROGRAMS", f"CMakeLists.txt, line {entry.command.line}"
+    shown = os.path.relpath(source, found.path)
+    if not source.resolve().is_relative_to(found.path.resolve()):
+        text = f"{shown} lies outside the package's folder"
+        raise refused(text, entry.command.where, "Put the files into the package.")
     if not source.exists():
         text = f'file INSTALL cannot find "{shown_path(str(source))}": No such file or directory.'
-        paths = [
-            path for path in sorted(folder.rglob("*.py" if is_program else "*")) if "__pycache__" not in path.parts
-        ]
-        close = did_you_mean(entry.source.rstrip("/"), [path.relative_to(folder).as_posix() for path in paths])
-        hint = f"CMakeLists.txt, line {entry.line}, names '{entry.source}', which does not exist. {close}".strip()
+        there = [path.relative_to(found.path).as_posix() for path in files_in(found.path)]
+        close = did_you_mean(shown, [path for path in there if path.endswith(".py") or not is_program])
+        hint = f"{at}, names '{shown}', which does not exist. {close}".strip()
         raise refused(text, "cmake_install.cmake:46 (file)", hint, seconds=1.2)
     target = "/".join(filter(None, (entry.destination, entry.name)))
-    if is_program:
-        if entry.destination != f"lib/{found.name}":
+    # Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can. Patterns have no effect.
+    options = until({"PATTERN", "REGEX"}, entry.command.args)
+    runs = is_program or "OWNER_EXECUTE" in options
+    if not source.is_dir():
+        if is_program and entry.destination != f"lib/{found.name}":
+            hints.append(f"{at}: {shown} goes to {entry.destination}; ros2 run looks only in lib/${{PROJECT_NAME}}.")
+        elif is_program and not _first_line(source).startswith("#!"):
             hints.append(
-                f"CMakeLists.txt, line {entry.line}: {entry.source} goes to {entry.destination}; ros2 run looks only in "
-                "lib/${PROJECT_NAME}."
+                f"{shown} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not start it (Exec format error)."
             )
-        elif not _first_line(found.path / entry.source).startswith("#!"):
-            hints.append(
-                f"{entry.source} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not start it (Exec "
-                "format error)."
-            )
-        yield Item(target, source, program=True)
-    elif source.is_dir():
-        # Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can. Patterns have no effect.
-        general, _ = split_at(entry.options, ("PATTERN", "REGEX"))
-        keeps = "USE_SOURCE_PERMISSIONS" in general
-        items = [
-            Item("/".join(filter(None, (target, file.relative_to(source).as_posix()))), file, program=runs)
-            for file in files_in(source)
-            for runs in [_RUNS in general or (keeps and os.access(file, os.X_OK))]
-        ]
-        if entry.destination == f"lib/{found.name}" and items and not any(item.program for item in items):
-            hints.append(
-                f"CMakeLists.txt, line {entry.line}: what install(DIRECTORY …) installs cannot be run. Write "
-                "install(PROGRAMS <file>.py … DESTINATION lib/${PROJECT_NAME}), or add USE_SOURCE_PERMISSIONS."
-            )
-        yield from items
-    else:
-        yield Item(target, source, program=_RUNS in entry.options)
+        yield Item(target, source, program=runs)
+        return
+    items = []
+    for file in files_in(source):
+        place = "/".join(filter(None, (target, file.relative_to(source).as_posix())))
+        can_run = runs or ("USE_SOURCE_PERMISSIONS" in options and os.access(file, os.X_OK))
+        items.append(Item(place, file, program=can_run))
+    if entry.destination == f"lib/{found.name}" and items and not any(item.program for item in items):
+        hints.append(
+            f"{at}: what install(DIRECTORY …) installs cannot be run. Write "
+            "install(PROGRAMS <file>.py … DESTINATION lib/${PROJECT_NAME}), or add USE_SOURCE_PERMISSIONS."
+        )
+    yield from items
 
 
 def _first_line(file: Path) -> str:
@@ -166,18 +157,16 @@ class InterfaceCheck:
 
     def __init__(self, found: Found, command: Command) -> None:
         self._found = found
-        self._line = command.line
-        self._own = f"CMakeLists.txt:{command.line} (rosidl_generate_interfaces)"
-        self.files, options = split_at(command.args[1:], _WORDS)
-        after = options[options.index("DEPENDENCIES") + 1 :] if "DEPENDENCIES" in options else ()
-        self._dependencies, _ = split_at(after, _WORDS)
+        self._command = command
+        self.files = until(_WORDS, command.args[1:])
+        self._dependencies = until(_WORDS, list(dropwhile(lambda word: word != "DEPENDENCIES", command.args))[1:])
 
     def configure(self, finished: bool, seen: set[str]) -> None:
         """What is refused while CMake configures; `finished`: ament_package() was called before, `seen`: what was found."""
         if not self.files:
             raise self._refused(59, "rosidl_generate_interfaces() called without any interface files")
         if finished:
-            hint = f"Move ament_package() to the end of CMakeLists.txt, below line {self._line}."
+            hint = f"Move ament_package() to the end of CMakeLists.txt, below line {self._command.line}."
             raise self._refused(64, "rosidl_generate_interfaces() must be called before ament_package()", hint)
         for name in self.files:
             self._exists(name)
@@ -186,7 +175,7 @@ class InterfaceCheck:
         for name in self._dependencies:
             if name not in seen:
                 reason = f"rosidl_generate_interfaces() the passed dependency '{name}' has not been found before"
-                hint = f"Write find_package({name} REQUIRED) above line {self._line}."
+                hint = f"Write find_package({name} REQUIRED) above line {self._command.line}."
                 raise self._refused(164, f"{reason} using find_package()", hint)
 
     def check_group(self) -> None:
@@ -219,7 +208,7 @@ class InterfaceCheck:
                 raise self._uncompiled(file, lines[package], f"{package}/msg/…: No such file or directory", hint)
 
     def _refused(self, line: int, text: str, hint: str = "") -> BuildFailure:
-        return refused(text, f"{_GENERATE}:{line} (message)", hint, [self._own])
+        return refused(text, f"{_GENERATE}:{line} (message)", hint, [self._command.where])
 
     def _uncompiled(self, file: str, line: int | None, reason: str, hint: str) -> BuildFailure:
         place = file if line is None else f"{file}:{line}"
@@ -280,7 +269,9 @@ class InterfaceCheck:
 
     def _adapter_text(self, text: str, hint: str) -> BuildFailure:
         whole = f"execute_process(/usr/bin/python3 -m rosidl_adapter) returned error code 1:\n\n{text}\n"
-        return refused(whole, _ADAPT, hint, [f"{_GENERATE}:130 (rosidl_adapt_interfaces)", self._own], seconds=0.3)
+        return refused(
+            whole, _ADAPT, hint, [f"{_GENERATE}:130 (rosidl_adapt_interfaces)", self._command.where], seconds=0.3
+        )
 
 
 def _packages_in(definition: Definition) -> dict[str, int]:
@@ -298,7 +289,7 @@ def _located(where: str, hint: str) -> str:
     return f"{where}: {hint}" if hint else f"It is in {where}."
 
 
-def interface_items(found: Found, files: tuple[str, ...]) -> Iterator[Item]:
+def interface_items(found: Found, files: list[str]) -> Iterator[Item]:
     """What is installed for the interface files of a package: definitions, the index, and a Python package.
 
     Definitions are copied, as the classes are made from these: with --symlink-install, too, a new field counts after a build.
