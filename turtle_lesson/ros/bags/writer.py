@@ -98,7 +98,11 @@ def is_there(folder: Path) -> bool:
     """Whether there is something of that name. Raises BagError for what no file can be called."""
     try:
         folder.stat()  # not exists(), which is False for a name too long since Python 3.14
-    except (FileNotFoundError, NotADirectoryError, UnicodeEncodeError):  # the last is refused with advice when it is made
+    except (
+        FileNotFoundError,
+        NotADirectoryError,
+        UnicodeEncodeError,
+    ):  # the last is refused with advice when it is made
         return False
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
