@@ -13,9 +13,12 @@ from ..idl.names import did_you_mean
 from ..sim import errors
 from ..sim.errors import is_ours, traceback_entries
 from . import names
-from .names import message_class
+
+# -- calls with wrong arguments ----------------------------------------------------------------------------------------
 
 _WRONG_CALL = re.compile(r"([\w.]+)\(\) (missing|takes|got an unexpected keyword argument '(\w+)'|got multiple values)")
+_PACKAGES = frozenset({"rclpy", "tf2_ros", "message_filters", "ament_index_python", "rosidl_runtime_py"})
+"""The packages whose functions are explained."""
 
 
 def call_advice(error: BaseException) -> str:
@@ -31,75 +34,58 @@ def call_advice(error: BaseException) -> str:
     if match is None or all(map(is_ours, callers)):
         return ""
     name, keyword = match[1], match[3]
-    if "takes 0 positional arguments but 1 was given" in text and "." in name:
-        return f"A method's first parameter is self: def {name.rpartition('.')[2]}(self)"
-    function, kind = _function(name), None
-    if function is None and name.endswith(".__init__"):
-        kind = message_class(name.partition(".")[0])
-    if kind is not None:
-        fields = list(kind.get_fields_and_field_types())
-        return f"Give the fields by name: {kind.__name__}({', '.join(f'{each}=…' for each in fields[:3])})"
-    return "" if function is None else _how(name, function, keyword)
-
-
-def _how(name: str, function: Callable[..., Any], keyword: str | None) -> str:
     owner, _, method = name.rpartition(".")
+    if owner and "takes 0 positional arguments but 1 was given" in text:
+        return f"A method's first parameter is self: def {method}(self)"
     if name == "Node.__init__":
         return "A node needs a name: super().__init__('the_name_of_the_node')"
     if owner == "RcutilsLogger":
         return "A log message is one text: put values into it with an f-string, as in f'x is {x}'."
-    signature = _signature(function)
-    close = did_you_mean(keyword, inspect.signature(function).parameters) if keyword else ""
-    return f"{close} It is called as {owner if method == '__init__' else method}({signature})".lstrip()
+    if (function := _function(name)) is not None:
+        close = did_you_mean(keyword, inspect.signature(function).parameters) if keyword else ""
+        return f"{close} It is called as {owner if method == '__init__' else method}({_signature(function)})".lstrip()
+    kind = names.message_class(owner) if method == "__init__" else None
+    if kind is None:
+        return ""
+    fields = list(kind.get_fields_and_field_types())
+    return f"Give the fields by name: {kind.__name__}({', '.join(f'{each}=…' for each in fields[:3])})"
 
 
 def _signature(function: Callable[..., Any]) -> str:
     """The parameters, those without a default and the first of the others."""
-    found = [
-        each
-        for each in inspect.signature(function).parameters.values()
-        if each.name != "self" and each.kind is not each.VAR_KEYWORD
-    ]
-    parts = [each.name if each.default is each.empty else f"{each.name}={_default(each)}" for each in found]
-    shown = [*parts[:4], "…"] if len(parts) > 5 else parts
-    return ", ".join(shown)
-
-
-def _default(parameter: inspect.Parameter) -> str:
-    simple = parameter.default is None or isinstance(parameter.default, (bool, int, float, str))
-    return repr(parameter.default) if simple else "…"
+    parts = []
+    for each in inspect.signature(function).parameters.values():
+        if each.default is each.empty:
+            parts += [each.name] if each.name != "self" and each.kind is not each.VAR_KEYWORD else []
+        else:
+            simple = each.default is None or isinstance(each.default, (bool, int, float, str))
+            parts.append(f"{each.name}={each.default!r}" if simple else f"{each.name}=…")
+    return ", ".join([*parts[:4], "…"] if len(parts) > 5 else parts)
 
 
 def _function(name: str) -> Callable[..., Any] | None:
     """The function or method of rclpy of this name."""
-    parts = name.split(".")
-    for module in [each for key, each in list(sys.modules.items()) if key.partition(".")[0] in _OURS]:
-        found: Any = vars(module).get(parts[0])
-        for part in parts[1:]:
-            found = None if found is None else getattr(found, part, None)
+    first, *rest = name.split(".")
+    for module in [each for key, each in list(sys.modules.items()) if key.partition(".")[0] in _PACKAGES]:
+        found = vars(module).get(first)
+        for part in rest:
+            found = getattr(found, part, None)
         if inspect.isfunction(found):
             return found
     return None
 
 
-_OURS = frozenset({"rclpy", "tf2_ros", "message_filters", "ament_index_python", "rosidl_runtime_py"})
-
-
 # -- errors of rclpy and of messages whose own words are those of the real one ----------------------------------------
-
-Say = Callable[[re.Match[str]], str]
 
 
 def value_advice(error: BaseException) -> str:
     """A sentence about an error whose words are known."""
-    name, text = type(error).__name__, str(error)
-    if name in _BY_KIND:
-        return _BY_KIND[name]
-    if name in _NAMES:
-        return _name(text, _NAMES[name])
-    for kind, pattern, say in _BY_TEXT:
-        if name == kind and (match := re.search(pattern, text)):
-            return say(match)
+    kind, text = type(error).__name__, str(error)
+    if match := re.fullmatch(r"Invalid(Node|Topic|Service)?Name(space)?Exception", kind):
+        return _name(text, (match[1] or "namespace").lower())
+    for known, pattern, sentence in _KNOWN:
+        if kind == known and (match := re.search(pattern, text)):
+            return sentence.format(*match.groups())
     return ""
 
 
@@ -107,79 +93,59 @@ def _name(text: str, what: str) -> str:
     """A name like the wrong one, which would do."""
     found = re.search(r"^  '(.*)'$", text, re.MULTILINE)
     wrong = found[1] if found else ""
-    slash = "/" if what != "node" else ""
-    good = (
-        re.sub(rf"[^A-Za-z0-9_{slash}~{{}}]+", "_", wrong).rstrip("/")
-        if slash
-        else re.sub(r"\W+", "_", wrong).strip("_")
-    )
-    good = re.sub(r"(^|/)(\d)", r"\1_\2", good) if slash else re.sub(r"^(\d)", r"n\1", good)
-    good = re.sub(r"_*/_*(?=\D)|_{2,}", lambda match: "/" if "/" in match[0] else "_", good)
+    good = re.sub(r"\W+" if what == "node" else r"[^\w/~{}]+", "_", wrong, flags=re.ASCII)
+    good = re.sub(r"([_/])\1+", r"\1", good).strip("_").rstrip("/")
+    good = re.sub(r"(^|/)(\d)", r"\1n\2", good)
     rule = f"In the name of a {what}, letters, digits and '_' are allowed, but no digit at the beginning"
     return f"{rule}: try '{good}'." if good and good != wrong else f"{rule}."
 
 
-_NAMES = {
-    "InvalidNodeNameException": "node", "InvalidTopicNameException": "topic",
-    "InvalidServiceNameException": "service", "InvalidNamespaceException": "namespace",
-}  # fmt: skip
-
-_KINDS = {
+_TYPES = {
     "srv": "a service's type: use create_service or create_client",
     "action": "an action's type: use rclpy.action.ActionServer or ActionClient",
     "msg": "a message's type: use create_publisher or create_subscription",
 }
 
-_BY_KIND = {
-    "NotInitializedException": "Call rclpy.init() first, before any node is made.",
-    "InvalidQoSProfileException": "Say how many messages to keep: QoSProfile(depth=10, …).",
-    "ParameterAlreadyDeclaredException": (
-        "A node declares each parameter only once; to change its value, use set_parameters([Parameter('name', value=…)])."
-    ),
-    "ParameterUninitializedException": (
-        "It was declared with only a type: give it a value when the program is started (-p name:=value), "
-        "or a default in declare_parameter."
-    ),
-}
-
-_BY_TEXT: list[tuple[str, str, Say]] = [
+_KNOWN: list[tuple[str, str, str]] = [
+    ("NotInitializedException", "", "Call rclpy.init() first, before any node is made."),
+    ("InvalidQoSProfileException", "", "Say how many messages to keep: QoSProfile(depth=10, …)."),
+    ("ParameterAlreadyDeclaredException", "",
+     "A node declares each parameter only once; to change its value, use set_parameters([Parameter('name', value=…)])."),
+    ("ParameterUninitializedException", "",
+     "It was declared with only a type: give it a value when the program is started (-p name:=value), or a default in "
+     "declare_parameter."),
     ("RuntimeError", r"Context.init\(\) must only be called once",
-     lambda _: "Call rclpy.init() once in a program; after rclpy.shutdown() it may be called again."),
+     "Call rclpy.init() once in a program; after rclpy.shutdown() it may be called again."),
     ("RuntimeError", r"Context must be initialized before it can be shutdown",
-     lambda _: "It was shut down already, or never initialised: rclpy.try_shutdown() works in either case."),
-    ("RuntimeError", r"message type provided is not valid \(<class '(\w+)\.(srv|action)\.\w+\.(\w+)'>",
-     lambda match: f"{match[3]} is {_KINDS[match[2]]}."),
-    ("RuntimeError", r"(?:service|action) type provided is not valid \(<class '(\w+)\.(msg|srv|action)\.\w+\.(\w+)'>",
-     lambda match: f"{match[3]} is {_KINDS[match[2]]}."),
+     "It was shut down already, or never initialised: rclpy.try_shutdown() works in either case."),
+    *(("RuntimeError", rf"type provided is not valid \(<class '\w+\.{folder}\.\w+\.(\w+)'>", f"{{0}} is {about}.")
+      for folder, about in _TYPES.items()),
     ("TypeError", r"Expected QoSProfile or int, but received <class '(?:str|float|NoneType)'>",
-     lambda _: "Give a whole number, the depth of the queue, as in 10, or a profile, as in QoSProfile(depth=10)."),
+     "Give a whole number, the depth of the queue, as in 10, or a profile, as in QoSProfile(depth=10)."),
     ("AssertionError", r"The '(\w+)' field must be a sub message of type 'Time'",
-     lambda match: f"A message has its own type for times: {match[1]} = self.get_clock().now().to_msg()"),
+     "A message has its own type for times: {0} = self.get_clock().now().to_msg()"),
     ("NotImplementedError", r"Service classes can not be instantiated",
-     lambda _: "A service has two halves, which are messages: make a request with NameOfTheService.Request()."),
+     "A service has two halves, which are messages: make a request with NameOfTheService.Request()."),
     ("NotImplementedError", r"Action classes can not be instantiated",
-     lambda _: "An action's parts are messages: make a goal with NameOfTheAction.Goal()."),
-    ("TypeError", r"unsupported operand type\(s\) for [-+]=?: '(Time|Duration)' and '(?:float|int)'",
-     lambda match: f"A {match[1]} is not a number: take .nanoseconds / 1e9 of it for seconds, or add a Duration(seconds=…)."),
-    ("TypeError", r"unsupported operand type\(s\) for [-+]=?: '(?:float|int)' and '(Time|Duration)'",
-     lambda match: f"A {match[1]} is not a number: take .nanoseconds / 1e9 of it for seconds."),
+     "An action's parts are messages: make a goal with NameOfTheAction.Goal()."),
+    ("TypeError", r"unsupported operand type\(s\) for [-+]=?: .*'(Time|Duration)'",
+     "A {0} is not a number: take .nanoseconds / 1e9 of it for seconds, or add a Duration(seconds=…)."),
     ("TypeError", r"The given value is not (?:one|a list of one) of the allowed types",
-     lambda _: "A parameter is a bool, int, float, str, or a list of values of one of these kinds."),
+     "A parameter is a bool, int, float, str, or a list of values of one of these kinds."),
     ("TypeError", r"'Parameter' object is not iterable",
-     lambda _: "set_parameters takes a list: set_parameters([Parameter('name', value=…)])"),
+     "set_parameters takes a list: set_parameters([Parameter('name', value=…)])"),
     ("AttributeError", r"'NoneType' object has no attribute '_callbacks'",
-     lambda _: "A future is expected, such as call_async(request) returns, but None came."),
-    ("TypeError", r"isinstance\(\) arg 2 must be a type", lambda _: "Give the class itself, as in String, not String()."),
+     "A future is expected, such as call_async(request) returns, but None came."),
+    ("TypeError", r"isinstance\(\) arg 2 must be a type", "Give the class itself, as in String, not String()."),
 ]  # fmt: skip
+"""The name of an error, a pattern of its words, and what to say; {0} is what the pattern's group has found."""
 
 
 # -- all advisers ------------------------------------------------------------------------------------------------------
 # Nothing of this runs before an error is shown. Each adviser looks at an error and says a sentence, or nothing; the
 # first that has something to say is heard. An error that brings advice of its own (a note) is left as it is.
 
-Adviser = Callable[[BaseException], str]
-
-ADVISERS: tuple[Adviser, ...] = (
+ADVISERS: tuple[Callable[[BaseException], str], ...] = (
     names.import_advice,
     names.attribute_advice,
     call_advice,
