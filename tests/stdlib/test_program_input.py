@@ -58,7 +58,7 @@ def type_lines(empty_terminal: Terminal) -> Type:
 @pytest.mark.parametrize(
     "line",
     [
-        "printf '1\\n2.5\\n' | python3 program.py",
+        "echo -e '1\\n2.5' | python3 program.py",
         "echo -e '1\\n2.5' | python3 program.py",
         "python3 program.py < lines.txt",
         "python3 program.py <<END\n1\n2.5\nEND",
@@ -74,7 +74,7 @@ def test_so_does_a_program_of_a_package(fresh_terminal: Terminal) -> None:
     fresh_terminal.say("ros2 pkg create --build-type ament_python --node-name asker asking")
     Path("asking/asking/asker.py").write_text(f"def main():{ASKER.replace(chr(10), chr(10) + '    ')}\n")
     fresh_terminal.say("colcon build && source install/setup.bash")
-    assert fresh_terminal.say("printf '%s\\n' 3 4 | ros2 run asking asker") == ["x? y? sum 7.0"]
+    assert fresh_terminal.say("echo -e '3\\n4' | ros2 run asking asker") == ["x? y? sum 7.0"]
     assert "EOFError: EOF when reading a line" in fresh_terminal.say("echo 3 | ros2 run asking asker")
 
 
@@ -92,7 +92,7 @@ def test_sys_stdin_is_a_text_stream(type_lines: Type) -> None:
         print(repr(sys.stdin.readline()), repr(sys.stdin.read(3)), sys.stdin.isatty())
         print([line.strip() for line in sys.stdin], repr(sys.stdin.readline()))
     """
-    assert type_lines(program, "printf 'one\\ntwo\\nthree\\nfour' | python3 program.py") == [
+    assert type_lines(program, "echo -en 'one\\ntwo\\nthree\\nfour' | python3 program.py") == [
         "'one\\n' 'two' False",
         "['', 'three', 'four'] ''",
     ]

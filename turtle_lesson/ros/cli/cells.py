@@ -82,7 +82,7 @@ COMMANDS = ("ros2", "colcon", "source", "mkdir", "cd", "ls", "pwd", "cat", "touc
 """Words that are a command unless they are a variable."""
 
 UNSURE = ELSEWHERE | {
-    "chmod", "cp", "echo", "export", "grep", "head", "mv", "printenv", "printf", "rm", "sleep", "sort", "tail", "unset", "wc",
+    "chmod", "cp", "echo", "export", "grep", "head", "mv", "printenv", "rm", "sleep", "sort", "tail", "unset", "wc",
 }  # fmt: skip
 """Words that are a command where the statement is no Python."""
 

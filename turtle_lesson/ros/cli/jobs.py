@@ -6,10 +6,11 @@ import contextlib
 import os
 import re
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import takewhile
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
 from ..runtime.files import BorrowedStream, CellOutput, FileOutput
@@ -173,13 +174,25 @@ class Terminal:
         print(text, file=self.stderr)
         return code
 
+    def for_each(self, names: Iterable[str], do: Callable[[Path], object], cannot: str) -> int:
+        """Do something with each file; print why for one with which it fails. Returns 1 if there was such a one, else 0."""
+        code = 0
+        for name in names:
+            try:
+                do(Path(name))
+            except OSError as error:
+                code = self.fail(f"{cannot} '{name}': {error.strerror or error}")
+        return code
+
 
 Builtin = Callable[[Terminal, list[str]], int]
 
 
-def options(words: list[str]) -> tuple[set[str], list[str]]:
-    """The letters after `-`, and the other words."""
+def options(words: list[str], known: str) -> tuple[set[str], list[str]]:
+    """The letters after `-`, and the other words. Raises ValueError for a letter that is not known."""
     letters = {letter for word in words if re.fullmatch("-[A-Za-z0-9]+", word) for letter in word[1:]}
+    if unknown := sorted(letters - set(known)):
+        raise ValueError(f"no option -{unknown[0]} here; known: {', '.join(f'-{each}' for each in known)}")
     return letters, [word for word in words if not re.fullmatch("-[A-Za-z0-9]+", word) and word != "--"]
 
 

@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 from collections.abc import Iterable
+from errno import EINVAL, EISDIR
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -48,28 +49,18 @@ def pwd(terminal: Terminal, words: list[str]) -> int:
 
 def mkdir(terminal: Terminal, words: list[str]) -> int:
     """`mkdir [-p] folder…`: make folders."""
-    letters, names = options(words)
-    if letters - {"p", "v"} or any(name.startswith("--") and name != "--parents" for name in names):
-        return terminal.fail(
-            "mkdir: the only option here is -p, which also makes the folders above and accepts folders that exist"
-        )
-    parents = "p" in letters or "--parents" in names
-    names = [name for name in names if name != "--parents"]
+    letters, names = options(words, "pv")
     if not names:
         return terminal.fail("mkdir: missing operand: name the folders to make, as in mkdir -p turtle_ws/src")
-    code = 0
-    for name in names:
+
+    def make(path: Path) -> None:
         try:
-            if not parents and os.path.lexists(name):
-                raise FileExistsError
-            files.check(Path(name)).mkdir(parents=parents, exist_ok=parents)  # not by way of other folders: new/../../x
-        except FileExistsError:
-            code = terminal.fail(f"mkdir: cannot create directory '{name}': File exists")
-        except FileNotFoundError:
-            code = terminal.fail(
-                f"mkdir: cannot create directory '{name}': No such file or directory. mkdir -p also makes the folders above"
-            )
-    return code
+            files.check(path).mkdir(parents="p" in letters, exist_ok="p" in letters)
+        except FileNotFoundError as error:
+            error.strerror = "No such file or directory. mkdir -p also makes the folders above"
+            raise
+
+    return terminal.for_each(names, make, "mkdir: cannot create directory")
 
 
 # -- files -------------------------------------------------------------------------------------------------------------
@@ -77,126 +68,106 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
 
 def ls(terminal: Terminal, words: list[str]) -> int:
     """`ls [-a] [-1] [-R] [name…]`: list folders, one name a line."""
-    letters, names = options(words)
-    code = 0
-    places = [Path(name) for name in names or ["."]]
-    for place in places:
-        if not place.exists():
-            code = terminal.fail(f"ls: cannot access '{place}': No such file or directory", 2)
-        elif place.is_file():
-            terminal.say(str(place))
+    letters, names = options(words, "1aAdFhlrRst")
+
+    def show(place: Path) -> None:
+        place.stat()
+        if place.is_dir():
+            _list_folder(terminal, place, letters, headed=len(names) > 1 or "R" in letters)
         else:
-            _list_folder(terminal, place, letters, headed=len(places) > 1 or "R" in letters)
-    return code
+            terminal.say(place)
+
+    return terminal.for_each(names or ["."], show, "ls: cannot access")
 
 
 def _list_folder(terminal: Terminal, place: Path, letters: set[str], *, headed: bool) -> None:
     inside = sorted(path for path in place.iterdir() if "a" in letters or not path.name.startswith("."))
-    if headed:
-        terminal.say(f"{place}:")
-    for path in inside:
-        terminal.say(path.name)
-    if "R" in letters:
-        for path in inside:
-            if path.is_dir():
-                terminal.say("")
-                _list_folder(terminal, path, letters, headed=True)
+    terminal.say(*([f"{place}:"] if headed else []), *(path.name for path in inside))
+    for path in inside if "R" in letters else ():
+        if path.is_dir():
+            terminal.say("")
+            _list_folder(terminal, path, letters, headed=True)
 
 
 def touch(terminal: Terminal, words: list[str]) -> int:
     """`touch file…`: make empty files."""
-    for name in words:
-        files.check(name)
-        Path(name).touch()
-    return 0 if words else terminal.fail("touch: name the files to make")
+    if not words:
+        return terminal.fail("touch: name the files to make")
+    return terminal.for_each(words, lambda path: files.check(path).touch(), "touch: cannot touch")
 
 
 def chmod(terminal: Terminal, words: list[str]) -> int:
     """`chmod +x file…`: make files executable."""
-    modes, names = words[:1], words[1:]
-    if not names or modes[0] not in {"+x", "a+x", "u+x", "755", "0755"}:
+    if len(words) < 2 or words[0] not in {"+x", "a+x", "u+x", "755", "0755"}:
         return terminal.fail("chmod: here it makes files executable: chmod +x file")
-    for name in names:
-        path = Path(name)
-        files.check(path)
-        path.chmod(path.stat().st_mode | 0o111)
-    return 0
+    return terminal.for_each(
+        words[1:], lambda path: files.check(path).chmod(path.stat().st_mode | 0o111), "chmod: cannot access"
+    )
 
 
 def rm(terminal: Terminal, words: list[str]) -> int:
     """`rm [-r] [-f] name…`: delete files, and with -r folders."""
-    letters, names = options(words)
+    letters, names = options(words, "rRfiv")
     if not names and "f" not in letters:
         return terminal.fail("rm: missing operand: name the files to delete, as in rm -r build install log")
-    return max((_delete(terminal, name, letters) for name in names), default=0)
 
-
-def _delete(terminal: Terminal, name: str, letters: set[str]) -> int:
-    path = Path(name)
-    if not path.exists() and not path.is_symlink():
-        return 0 if "f" in letters else terminal.fail(f"rm: cannot remove '{name}': No such file or directory")
-    try:
+    def delete(path: Path) -> None:
+        if "f" in letters and not os.path.lexists(path):
+            return
+        path.lstat()
         files.check(path, removes=True)
-    except PermissionError as refusal:
-        return terminal.fail(f"rm: '{name}' stays where it is: {refusal.strerror}")
-    if path.is_symlink() or not path.is_dir():
-        path.unlink()
-    elif letters & {"r", "R"}:
-        shutil.rmtree(path)
-    else:
-        return terminal.fail(f"rm: cannot remove '{name}': Is a directory. rm -r deletes a folder and everything in it")
-    return 0
+        if path.is_symlink() or not path.is_dir():
+            path.unlink()
+        elif letters & {"r", "R"}:
+            shutil.rmtree(path)
+        else:
+            raise IsADirectoryError(EISDIR, "Is a directory. rm -r deletes a folder and everything in it")
+
+    return terminal.for_each(names, delete, "rm: cannot remove")
 
 
 def cp(terminal: Terminal, words: list[str]) -> int:
     """`cp [-r] from… to`: copy files, and with -r folders."""
-    letters, names = options(words)
+    letters, names = options(words, "rRafpv")
     if len(names) < 2:
         return terminal.fail("cp: name what to copy, and where to: cp old.py new.py")
-    return max(_copy(terminal, name, _target(name, names[-1]), letters) for name in names[:-1])
 
+    def copy(source: Path) -> None:
+        source.stat()
+        target = _target(source, names[-1])
+        if not source.is_dir():
+            files.check(target)
+            shutil.copy(source, target)
+        elif not letters & {"r", "R", "a"}:
+            raise IsADirectoryError(EISDIR, "Is a directory. cp -r copies a folder and everything in it")
+        elif Path(os.path.realpath(target)).is_relative_to(source.resolve()):
+            raise OSError(EINVAL, f"a folder cannot be copied into itself, '{target}'")
+        else:
+            files.copy(source.resolve(), target)
 
-def _copy(terminal: Terminal, name: str, target: Path, letters: set[str]) -> int:
-    source = Path(name)
-    if not source.exists():
-        return terminal.fail(f"cp: cannot stat '{name}': No such file or directory")
-    if not source.is_dir():
-        files.check(target)
-        shutil.copy(source, target)
-    elif not letters & {"r", "R", "a"}:
-        return terminal.fail(f"cp: -r not specified; omitting directory '{name}'")
-    elif Path(os.path.realpath(target)).is_relative_to(source.resolve()):
-        return terminal.fail(f"cp: cannot copy a directory, '{name}', into itself, '{target}'")
-    else:
-        files.copy(source.resolve(), target)
-    return 0
+    return terminal.for_each(names[:-1], copy, "cp: cannot copy")
 
 
 def mv(terminal: Terminal, words: list[str]) -> int:
     """`mv from… to`: rename or move files and folders."""
-    _, names = options(words)
+    _, names = options(words, "fiv")
     if len(names) < 2:
         return terminal.fail("mv: name what to move, and where to: mv old.py new.py")
-    return max(_move(terminal, name, _target(name, names[-1])) for name in names[:-1])
 
-
-def _move(terminal: Terminal, name: str, target: Path) -> int:
-    source = Path(name)
-    if not source.exists():
-        return terminal.fail(f"mv: cannot stat '{name}': No such file or directory")
-    try:
+    def move(source: Path) -> None:
+        source.stat()
+        target = _target(source, names[-1])
         files.check(source, removes=True)
-    except PermissionError as refusal:
-        return terminal.fail(f"mv: '{name}' stays where it is: {refusal.strerror}")
-    files.check(target, follow=False)
-    os.replace(source, target)
-    return 0
+        files.check(target, follow=False)
+        os.replace(source, target)
+
+    return terminal.for_each(names[:-1], move, "mv: cannot move")
 
 
-def _target(name: str, to: str) -> Path:
+def _target(source: Path, to: str) -> Path:
     """Where a file goes: into a folder that is there, or else to the name itself."""
     place = Path(to)
-    return place / os.path.basename(os.path.realpath(name)) if place.is_dir() else place
+    return place / os.path.basename(os.path.realpath(source)) if place.is_dir() else place
 
 
 # -- texts, and what a pipe leads to ---------------------------------------------------------------------------------
@@ -226,34 +197,15 @@ def echo(terminal: Terminal, words: list[str]) -> int:
     while words and re.fullmatch("-[neE]+", words[0]):
         signs, words = signs + words[0], words[1:]
     text = " ".join(words)
-    terminal.stdout.write((_unescaped(text) if "e" in signs else text) + ("" if "n" in signs else "\n"))
+    if "e" in signs:
+        text = re.sub(r"\\([ntr\\])", lambda found: {"n": "\n", "t": "\t", "r": "\r"}.get(found[1], found[1]), text)
+    terminal.stdout.write(text + ("" if "n" in signs else "\n"))
     return 0
-
-
-def printf(terminal: Terminal, words: list[str]) -> int:
-    """`printf FORMAT words`: print a text in which `\\n` is a line end and %s a word; further words use it once more."""
-    if not words:
-        return terminal.fail("printf: usage: printf format [arguments]", 2)
-    shape, rest = _unescaped(words[0]), iter(words[1:])
-    places = len(re.findall("%[sdi]", shape.replace("%%", "")))
-    left = max(1, -(-len(words[1:]) // places)) if places else 1
-    for _ in range(left):
-        filled = re.sub("%([sdi%])", lambda found: "%" if found[1] == "%" else next(rest, ""), shape)
-        terminal.stdout.write(filled)
-    return 0
-
-
-def _unescaped(text: str) -> str:
-    return re.sub(r"\\([ntr\\])", lambda found: {"n": "\n", "t": "\t", "r": "\r"}.get(found[1], found[1]), text)
 
 
 def grep(terminal: Terminal, words: list[str]) -> int:
     """`… | grep [-i] [-v] [-c] pattern`: the lines with a pattern in them."""
-    letters, rest = options(words)
-    if unknown := sorted(set(letters) - set("civqE")):
-        return terminal.fail(
-            f"grep: this terminal's knows -i, -v, -c, -q and -E, but no -{unknown[0]}: leave it out", 2
-        )
+    letters, rest = options(words, "civqE")
     if not rest:
         return terminal.fail("grep: name the pattern to look for", 2)
     pattern = re.compile(rest[0] if "E" in letters else re.escape(rest[0]), re.IGNORECASE if "i" in letters else 0)
@@ -294,14 +246,14 @@ def _count(words: list[str]) -> tuple[int, list[str]]:
 
 def sort(terminal: Terminal, words: list[str]) -> int:
     """`… | sort [-r] [-u]`: the lines in order."""
-    letters, rest = options(words)
+    letters, rest = options(words, "ru")
     lines = _lines(terminal, rest)
     return terminal.say(*sorted(set(lines) if "u" in letters else lines, reverse="r" in letters))
 
 
 def wc(terminal: Terminal, words: list[str]) -> int:
     """`… | wc -l`: how many lines."""
-    _, rest = options(words)
+    _, rest = options(words, "l")
     return terminal.say(sum(text.count("\n") for text in _texts(terminal, rest)))
 
 
@@ -326,40 +278,31 @@ def sleep(terminal: Terminal, words: list[str]) -> int:
 def kill(terminal: Terminal, words: list[str]) -> int:
     """`kill [-INT] %1`, `kill [-INT] 1004`: end a job or a process."""
     name = "TERM"
-    rest = list(words)
-    while rest and rest[0].startswith("-"):
-        name = rest.pop(0).lstrip("-").removeprefix("SIG")
-        if name == "s" and rest:
-            name = rest.pop(0).removeprefix("SIG")
-        name = next((sign for sign, number in SIGNALS.items() if name == str(number)), name)
+    if words and words[0].startswith("-"):
+        name = words[0].lstrip("-").removeprefix("SIG")
+        name, words = next((sign for sign, number in SIGNALS.items() if name == str(number)), name), words[1:]
     if name not in SIGNALS:
         return terminal.fail(f"kill: {name}: invalid signal specification; there are {', '.join(SIGNALS)}")
-    if not rest:
+    if not words:
         return terminal.fail("kill: which one? `jobs` lists what is running; kill -INT %1 is Ctrl-C for the first")
-    return max(_kill_one(terminal, word, name) for word in rest)
-
-
-def _kill_one(terminal: Terminal, word: str, name: str) -> int:
-    target: Job | Process | None = None
-    if re.fullmatch(r"%\d{1,9}", word):
-        target = next((job for job in jobs(terminal.world).running if job.number == int(word[1:])), None)
-    elif re.fullmatch(r"\d{1,9}", word):
-        target = next((each for each in terminal.world.processes if each.alive and each.pid == int(word)), None)
-    else:
-        return terminal.fail(f"kill: {word[:60]}: arguments must be process or job IDs, such as 1004 or %1")
-    if target is None:
-        what = "no such job" if word.startswith("%") else "No such process"
-        return terminal.fail(f"kill: {word}: {what}. `jobs` lists what is running")
-    if isinstance(target, Job):
-        target.signal(name)
-    else:
-        send(target, name)
-    terminal.world.sim.settle()
-    return 0
+    code = 0
+    for word in words:
+        running: dict[str, Job | Process] = {f"%{job.number}": job for job in jobs(terminal.world).running}
+        running |= {str(process.pid): process for process in terminal.world.processes if process.alive}
+        target = running.get(word)
+        if target is None:
+            code = terminal.fail(f"kill: {word[:60]}: no such job or process. `jobs` lists what is running")
+            continue
+        if isinstance(target, Job):
+            target.signal(name)
+        else:
+            send(target, name)
+        terminal.world.sim.settle()
+    return code
 
 
 _WORDS: tuple[Any, ...] = (
-    cat, cd, chmod, cp, echo, export, grep, head, kill, ls, mkdir, mv, printenv, printf, pwd, rm, sleep, sort, tail, touch,
+    cat, cd, chmod, cp, echo, export, grep, head, kill, ls, mkdir, mv, printenv, pwd, rm, sleep, sort, tail, touch,
     unset, wc,
 )  # fmt: skip
 BUILTINS: dict[str, Builtin] = {"jobs": list_jobs, **{word.__name__: word for word in _WORDS}}
