@@ -84,7 +84,7 @@ def test_other_signals(world: World, capsys: pytest.CaptureFixture[str], signal:
 def test_a_process_can_be_named_by_its_number(world: World) -> None:
     run_line(world, "ros2 run robot_controller navigator")
     pid = world.processes[-1].pid
-    assert run_line(world, f"kill -s INT {pid}") == 0
+    assert run_line(world, f"kill -INT {pid}") == 0
     assert nodes(world) == []
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable
@@ -134,85 +133,48 @@ def either(*arguments: Argument) -> Argument:
 LONGEST = 86_400.0
 """How long, in s of robot time, a command can be told to go on: a day."""
 
-FASTEST = 10_000.0
-"""How often a second a command can be told to do something; more often no robot could."""
-
 MOST = 2**31 - 1
 """The greatest whole number that a command takes."""
 
 
-def number(text: str) -> float:
-    """The finite number that a text says; NaN, which fails every comparison, if it says none."""
-    with suppress(ValueError):
-        value = float(text)
-        return value if math.isfinite(value) else math.nan
-    return math.nan
+def bounded(name: str, least: float, most: float) -> Callable[[str], float]:
+    """A type of arguments, called `name` in errors as argparse does: numbers within these bounds."""
+
+    def read(text: str) -> float:
+        with suppress(ValueError):
+            if least <= (value := float(text)) <= most:
+                return value
+        raise ArgumentTypeError(f"invalid {name} value: '{text}'\nIt must be a number from {least:g} to {most:g}")
+
+    return read
 
 
-def positive_float(text: str) -> float:
-    """An argument that is a number above 0."""
-    if not number(text) > 0:
-        raise ArgumentTypeError(f"'{text}' is not a number above 0")
-    return number(text)
+seconds = bounded("float", 0.0, LONGEST)
+"""A number of seconds."""
+
+stretch = bounded("positive_float", 1e-9, LONGEST)
+"""A stretch of time in s, of more than 0 s."""
+
+frequency = bounded("positive_float", 1 / LONGEST, 10_000.0)
+"""How often a second; more often than the most no robot could."""
 
 
-def frequency(text: str) -> float:
-    """An argument that says how often a second.
+def whole(least: int, refusal: str) -> Callable[[str], int]:
+    """A type of arguments: whole numbers, none below `least`. All else is refused with this text, {} being the argument."""
 
-    Anything but a number above 0 is refused in the words that argparse has for ros2topic's `positive_float`.
-    """
-    value = number(text)
-    if not value > 0:
-        raise ArgumentTypeError(f"invalid positive_float value: '{text}'\n'{text}' is not a number above 0")
-    if value > FASTEST:
-        raise ArgumentTypeError(f"'{text}' times a second is too often; at most {FASTEST:g}")
-    if value < 1 / LONGEST:
-        raise ArgumentTypeError(f"'{text}' times a second is too rare; at least once a day")
-    return value
+    def read(text: str) -> int:
+        with suppress(ValueError):
+            if least <= (value := int(text)) <= MOST:
+                return value
+        raise ArgumentTypeError(refusal.format(text))
+
+    return read
 
 
-def seconds(text: str) -> float:
-    """An argument that is a number of seconds, 0 or more, up to a day."""
-    value = number(text)
-    if not value >= 0:
-        raise ArgumentTypeError(f"'{text}' is not a number of seconds")
-    if value > LONGEST:
-        raise ArgumentTypeError(f"'{text}' is too long; at most {LONGEST:.0f} s, a day")
-    return value
-
-
-def stretch(text: str) -> float:
-    """An argument that is a stretch of time: more than 0 s, up to a day."""
-    positive_float(text)
-    return seconds(text)
-
-
-def positive_int(text: str) -> int:
-    """An argument that is a whole number above 0."""
-    if not text.isdigit() or not text.strip("0"):
-        raise ArgumentTypeError("value must be a positive integer")
-    return unsigned_int(text)
-
-
-def unsigned_int(text: str) -> int:
-    """An argument that is a whole number, 0 or above."""
-    if not (text.isascii() and text.isdigit() and len(text) < 19):
-        raise ArgumentTypeError("value must be non-negative integer")
-    return _not_too_great(int(text))
-
-
-def depth(text: str) -> int:
-    """An argument that is the length of a queue; a negative one is accepted, and without effect."""
-    try:
-        return _not_too_great(int(text))
-    except ValueError:
-        raise ArgumentTypeError(f"invalid int value: '{text}'") from None
-
-
-def _not_too_great(value: int) -> int:
-    if value > MOST:
-        raise ArgumentTypeError(f"value must be at most {MOST}")
-    return value
+positive_int = whole(1, "value must be a positive integer")
+unsigned_int = whole(0, "value must be non-negative integer")
+depth = whole(-MOST, "invalid int value: '{}'")
+"""The length of a queue; a negative one is accepted, and without effect."""
 
 
 # -- arguments that several verbs have ---------------------------------------------------------------------------------
@@ -224,10 +186,10 @@ DISCOVERY = 0.1
 """How long, in s of robot time, a command looks around first, so that what was just started can appear."""
 
 
-def duration(text: str = "", kind: Callable[[str], float] = stretch) -> Argument:
+def duration(text: str = "") -> Argument:
     """`--for SECONDS`, for a verb that never ends in a terminal. The real tool has no such option."""
     usual = f"End after this many seconds of robot time (default: {STRETCH:g}; only here)"
-    return arg("--for", text or usual, dest="seconds", type=kind, metavar="SECONDS")
+    return arg("--for", text or usual, dest="seconds", type=stretch, metavar="SECONDS")
 
 
 NODE_WITHOUT_DAEMON = (

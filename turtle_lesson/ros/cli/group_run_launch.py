@@ -20,7 +20,7 @@ from ..runtime.files import FileOutput
 from ..runtime.world import current_world, run_for
 from ..sim.errors import shown_path
 from ..sim.process import Process
-from .arguments import Argument, arg, cut, duration, either, flag, positive_float
+from .arguments import Argument, arg, cut, duration, either, flag
 from .group_pkg import not_found, path_of
 from .jobs import Job, LastSignal, jobs, lasting
 from .verb import CommandError, verb
@@ -45,7 +45,7 @@ def _words(name: str, text: str, nargs: str) -> Argument:
 @verb(
     "run",
     arg("--prefix", "a program to run it with: accepted, but without effect here"),
-    duration(LET_PASS.format("ros2 run"), positive_float),
+    duration(LET_PASS.format("ros2 run")),
     arg("package_name", "package that the program belongs to"),
     arg("executable_name", "name of the program"),
     _words("argv", "arguments of the program itself, such as --ros-args -p a:=1", REMAINDER),
@@ -118,7 +118,7 @@ NOTHING = "accepted, but without effect here"
     ),
     arg("--launch-prefix", NOTHING),
     arg("--launch-prefix-filter", NOTHING),
-    duration(LET_PASS.format("ros2 launch"), positive_float),
+    duration(LET_PASS.format("ros2 launch")),
     arg("package_name", "package that the launch file belongs to, or the path of a launch file"),
     arg("launch_file_name", "name of the launch file", nargs="?"),
     _words("launch_arguments", "values for its arguments, as name:=value", "*"),

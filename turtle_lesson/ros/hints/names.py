@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import builtins
 import importlib
 import linecache
 import pkgutil
@@ -138,7 +137,7 @@ def _variable(error: NameError) -> str:
         found = getattr(importlib.import_module(module), name, None)
         if getattr(found, "__module__", "").partition(".")[0] == module.partition(".")[0]:
             return f"Add at the top of the file: from {module} import {name}"
-    return did_you_mean(name, [*frame.f_locals, *frame.f_globals, *dir(builtins)])
+    return did_you_mean(name, [*frame.f_locals, *frame.f_globals])
 
 
 # -- parts of rclpy that are left out, because no course uses them: what to do without each ---------------------------
