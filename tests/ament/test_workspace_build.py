@@ -361,7 +361,7 @@ def test_event_handlers(package: Path, world: World) -> None:
     answer = colcon(world, "build --event-handlers console_cohesion+")
     assert "--- output: robot_controller\n" in answer.out
     answer = colcon(world, "build --event-handlers console_drect+")
-    assert "Did you mean 'console_direct'?" in answer.err
+    assert "Did you mean 'console_direct+'?" in answer.err
 
 
 def test_list(package: Path, world: World) -> None:
