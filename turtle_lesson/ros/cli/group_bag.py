@@ -8,7 +8,6 @@ the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. Th
 from __future__ import annotations
 
 from argparse import ArgumentTypeError, Namespace
-from collections.abc import Callable
 from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
@@ -177,13 +176,16 @@ def _logger(name: str) -> Say:
     from rclpy.logging import get_logger
 
     logger = get_logger(name)
-    # each on a line of its own: a logger's line has one severity forever
-    methods: dict[str, Callable[[str], object]] = {
-        "INFO": lambda text: logger.info(text),
-        "WARN": lambda text: logger.warning(text),
-        "ERROR": lambda text: logger.error(text),
-    }
-    return lambda severity, text: methods[severity](text)
+
+    def say(severity: str, text: str) -> None:
+        if severity == "INFO":  # each on a line of its own: a logger's line has one severity forever
+            logger.info(text)
+        elif severity == "WARN":
+            logger.warning(text)
+        else:
+            logger.error(text)
+
+    return say
 
 
 def _error(text: str) -> CommandError:
