@@ -6,7 +6,7 @@ from pathlib import Path
 from hypothesis import strategies as st
 
 from turtle_lesson.ros.idl.checks import FLOAT_BOUNDS
-from turtle_lesson.ros.idl.definition import parse_message
+from turtle_lesson.ros.idl.definition import parse
 from turtle_lesson.ros.idl.generator import make_module
 from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.names import integer_bounds
@@ -56,7 +56,7 @@ def write_package(folder, files):
 
 def message_class(text, package="demo_msgs", name="Demo"):
     """The class of a message definition that lies in no file."""
-    definition = parse_message(package, name, text)
+    definition = parse("msg", package, name, text)
     return getattr(make_module(definition, built_in.resolve), name)
 
 

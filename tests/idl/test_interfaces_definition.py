@@ -1,17 +1,19 @@
 """Definition files are read, and refused, as ROS 2 does it."""
 
 import pickle
+from functools import partial
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from interface_cases import definition_texts, message_class, recorded
 
-from turtle_lesson.ros.idl.definition import parse_action, parse_message, parse_service
+from turtle_lesson.ros.idl.definition import parse
 from turtle_lesson.ros.idl.model import InvalidDefinition
-from turtle_lesson.ros.idl.names import check_message, check_package, module_name
+from turtle_lesson.ros.idl.names import check, module_name
 
 CASES = recorded("interface_definitions.json")
+parse_message, parse_service, parse_action = (partial(parse, folder) for folder in ("msg", "srv", "action"))
 
 
 def by_text(case):
@@ -44,9 +46,9 @@ def test_a_message_is_read_as_ros_reads_it(case):
 def test_a_service_is_read_as_ros_reads_it(case):
     if "error" not in case:
         definition = parse_service("pkg", "Name", case["text"])
-        assert texts(definition.request.fields) == case["request"]
-        assert texts(definition.response.fields) == case["response"]
-        assert (definition.request.name, definition.response.name) == ("Name_Request", "Name_Response")
+        request, response = definition.parts
+        assert (texts(request.fields), texts(response.fields)) == (case["request"], case["response"])
+        assert (request.name, response.name) == ("Name_Request", "Name_Response")
         return
     error = refusal(lambda: parse_service("pkg", "Name", case["text"]))
     assert (error.ros_error, error.reason) == (case["error"], case["reason"])
@@ -54,16 +56,16 @@ def test_a_service_is_read_as_ros_reads_it(case):
 
 @pytest.mark.parametrize("case", CASES["names"], ids=lambda case: case["name"])
 def test_names_follow_ros_rules(case):
-    check = check_package if case["what"] == "package" else check_message
+    what = "package" if case["what"] == "package" else "message"
     if "error" not in case:
-        check(case["name"])
+        check(what, case["name"])
     else:
-        assert refusal(lambda: check(case["name"])).reason == case["reason"]
+        assert refusal(lambda: check(what, case["name"])).reason == case["reason"]
 
 
 def test_an_action_has_three_parts():
     action = parse_action("pkg", "Turn", "float32 theta\n---\nfloat32 delta\n---\nfloat32 remaining\n")
-    assert [part.full_name for part in action.parts()] == [
+    assert [part.full_name for part in action.parts] == [
         "pkg/action/Turn_Goal",
         "pkg/action/Turn_Result",
         "pkg/action/Turn_Feedback",
@@ -81,7 +83,7 @@ def test_windows_line_ends_are_no_matter():
 def test_the_source_text_is_kept():
     text = "# all about x\nfloat32 x  # metres\n"
     assert parse_message("pkg", "Name", text).text == text
-    assert parse_service("pkg", "Name", text + "---\n").request.text == text.rstrip("\n")
+    assert parse_service("pkg", "Name", text + "---\n").parts[0].text == text.rstrip("\n")
 
 
 def test_a_type_says_what_it_is_made_of():
@@ -205,8 +207,8 @@ def test_what_is_written_back_reads_the_same(text):
 
 @given(st.text() | st.lists(st.sampled_from([*"[]<=/#'\"\\- \n,1aA_", "string", "int8 ", "---"])).map("".join))
 def test_any_text_is_read_or_refused_with_a_reason(text):
-    for parse in (parse_message, parse_service, parse_action):
+    for folder in ("msg", "srv", "action"):
         try:
-            parse("pkg", "Name", text)
+            parse(folder, "pkg", "Name", text)
         except InvalidDefinition as error:
             assert error.reason

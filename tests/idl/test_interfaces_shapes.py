@@ -110,7 +110,8 @@ def shapes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Registry]:
 def parts(registry: Registry) -> list[Any]:
     """The classes of all messages of the package, requests and goals included."""
     names = registry.interface_names("shapes")
-    return [registry.get(part.full_name) for name in names for part in registry.definition(f"shapes/{name}").parts()]
+    definitions = [registry.definition(f"shapes/{name}") for name in names]
+    return [registry.get(part.full_name) for each in definitions for part in each.parts or (each,)]
 
 
 def test_defaults_of_every_kind(shapes: Registry) -> None:

@@ -13,9 +13,10 @@ from itertools import dropwhile
 from pathlib import Path, PurePosixPath
 
 from ..idl import names
-from ..idl.model import Definition, DuplicateName, InvalidDefinition, MessageDefinition, UnknownMessageType
+from ..idl.definition import parse
+from ..idl.model import Definition, InvalidDefinition
 from ..idl.names import did_you_mean, module_name
-from ..idl.registry import PARSERS, Registry
+from ..idl.registry import FOLDERS, Registry
 from ..sim.errors import shown_path
 from .cmake import Command, until
 from .install_tree import PYTHON_FOLDERS, Item, files_in
@@ -193,11 +194,11 @@ class InterfaceCheck:
             file = shown_path(str(self._found.path / name))
             try:
                 types.module(self._found.name, interface)
-            except UnknownMessageType as error:
+            except InvalidDefinition as error:
+                if error.ros_error != "UnknownMessageType":
+                    raise self._adapter(error) from None
                 where = file if error.line is None else f"{file}, line {error.line}"
                 raise self._uncompiled(file, error.line, error.reason, _located(where, error.hint)) from None
-            except InvalidDefinition as error:
-                raise self._adapter(error) from None
             lines = _packages_in(types.definition(f"{self._found.name}/{interface}"))
             for package in sorted(lines.keys() - known):
                 hint = (
@@ -236,15 +237,15 @@ class InterfaceCheck:
     def _parses(self, name: str) -> None:
         path = self._found.path / name
         suffix = path.suffix[1:]
-        if suffix not in PARSERS:
+        if suffix not in FOLDERS:
             text = f"AssertionError: Unsupported interface type '{path.suffix}'"
             raise self._adapter_text(text, "An interface file ends in .msg, .srv or .action.")
         if path.parent.name != suffix:
             hint = f'Put it in {suffix}/ and write "{suffix}/{path.name}": Python\'s `import` expects it there.'
             raise self._adapter_text(f"{name} does not lie in a folder {suffix}/", hint)
         try:
-            names.check_package(self._found.name)
-            PARSERS[suffix](self._found.name, path.stem, path.read_text(encoding="utf-8"), str(path))
+            names.check("package", self._found.name)
+            parse(suffix, self._found.name, path.stem, path.read_text(encoding="utf-8"), str(path))
         except InvalidDefinition as error:
             raise self._adapter(error) from None
         except (OSError, UnicodeDecodeError) as error:
@@ -254,7 +255,7 @@ class InterfaceCheck:
         lines = []
         if error.printed:
             lines.append(error.printed)
-        elif error.line_text is not None and error.interface and not isinstance(error, DuplicateName):
+        elif error.line_text is not None and error.interface and error.ros_error != "ValueError":
             package, _, kind = error.interface.split("/")
             lines.append(f"Error processing '{error.line_text}' of '{package}/{kind}': '{error.reason}'")
         lines.append(f"{error.qualified_ros_error}: {error.reason}")
@@ -276,10 +277,8 @@ class InterfaceCheck:
 
 def _packages_in(definition: Definition) -> dict[str, int]:
     """The packages whose messages a definition's own fields are, each with the line that says so."""
-    if isinstance(definition, MessageDefinition):
-        return {field.type.package: field.line for field in reversed(definition.fields) if field.type.package}
-    parts = [getattr(definition, part, None) for part in ("request", "response", "goal", "result", "feedback")]
-    return {package: line for part in parts if part is not None for package, line in _packages_in(part).items()}
+    fields = [field for part in (definition, *definition.parts) for field in reversed(part.fields)]
+    return {field.type.package: field.line for field in fields if field.type.package}
 
 
 def _located(where: str, hint: str) -> str:

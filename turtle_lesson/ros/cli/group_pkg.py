@@ -13,7 +13,7 @@ from ..ament.create import add_arguments as add_create_arguments
 from ..ament.create import create_package
 from ..ament.index import current_packages, package_hint
 from ..ament.package import Package
-from ..idl.definition import parse_message
+from ..idl.definition import parse
 from ..idl.model import FieldType
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
@@ -247,7 +247,7 @@ def _field_type(package: str, line: str) -> FieldType | None:
     """The type of the field that a line declares, if it declares one."""
     if not _without_comment(line).strip() or line.strip() == "---":
         return None
-    fields = parse_message(package, "Line", line, "").fields
+    fields = parse("msg", package, "Line", line).fields
     return fields[0].type if fields else None
 
 

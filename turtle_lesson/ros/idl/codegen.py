@@ -7,7 +7,7 @@ globals of the generated module; no field can have such a name.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from math import isfinite
@@ -15,7 +15,7 @@ from typing import Any
 
 from . import checks, message
 from .message import slot_type
-from .model import Constant, Definition, Field, FieldType, MessageDefinition, Plain, ServiceDefinition
+from .model import Definition, Field, FieldType, Plain
 from .names import FLOATS, STRINGS, integer_bounds
 
 ELEMENT_CLASSES: dict[str, type] = {"bool": bool, "byte": bytes, "string": str, "wstring": str}
@@ -66,6 +66,13 @@ class Kind:
         kinds: tuple[Kind, ...] = self.message_class._KINDS  # type: ignore[attr-defined]
         return kinds
 
+    @property
+    def shown_default(self) -> str:
+        """The default as a signature shows it."""
+        if self.message_class is not None:
+            return f"{self.message_class.__name__}()"
+        return self.fresh.replace("_numpy_", "numpy.").replace("_array('", "array('")
+
 
 MOST_LINES = 64
 """A message with more fields than these, its messages' fields included, is not written out in those that contain it."""
@@ -76,7 +83,7 @@ def weight_of(kinds: Iterable[Kind]) -> int:
     return 1 + sum(kind.weight for kind in kinds)
 
 
-def kind_of(definition: MessageDefinition, member: Field, message_class: type | None) -> Kind:
+def kind_of(definition: Definition, member: Field, message_class: type | None) -> Kind:
     """The kind of one field; `message_class` is the class of its elements, where these are messages."""
     type_ = member.type
     key = f"{definition.package}_{definition.folder}_{definition.name}_{member.name}"
@@ -196,39 +203,36 @@ def _numpy_kind(member: Field, key: str) -> Kind:
 
 
 def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
-    type_, check, copy = member.type, f"_check_{key}", f"_copy_{key}"
+    type_, check, elements = member.type, f"_check_{key}", f"_elements_{key}"
     element_class = message_class or ELEMENT_CLASSES[type_.base]
     check_function = checks.list_check(member.name, type_, element_class)
-    copier: Callable[..., Any] = message.copy_values
-    if message_class:
-        copier = message.copy_messages
-    elif element_class is str:
-        copier = message.copy_texts
-    objects: dict[str, Any] = {check: checks.assigned(check_function), copy: copier(check_function)}
+    # What was put into the list since the check is refused when it is copied.
+    objects: dict[str, Any] = {check: checks.assigned(check_function), elements: check_function}
     element_weight = 1
+    copy = f"_list({elements}({{value}}))"
     if message_class:
         objects[class_variable(message_class)] = message_class
         element_weight = weight_of(message_class._KINDS)  # type: ignore[attr-defined]
+        copy = f"[each._wire_copy() for each in {elements}({{value}})]"
+    elif element_class is str:
+        copy = f"[_plain_text(each) for each in {elements}({{value}})]"
+    if isinstance(member.default, tuple):
+        fresh = "[" + ", ".join(literal(type_.base, each) for each in member.default) + "]"
+    elif not type_.is_fixed:
+        fresh = "[]"
+    elif message_class:
+        fresh = f"[{class_variable(message_class)}() for _ in _range({type_.size})]"
+    else:
+        fresh = f"[{literal(type_.base, zero(type_.base))}] * {type_.size}"
     return Kind(
         name=member.name,
         check=check,
-        fresh=_fresh_list(member, message_class),
-        copy=f"{copy}({{value}})",
+        fresh=fresh,
+        copy=copy,
         element_class=message_class,
         objects=objects,
         weight=(type_.size or 0) * element_weight if type_.is_fixed else 1,
     )
-
-
-def _fresh_list(member: Field, message_class: type | None) -> str:
-    type_ = member.type
-    if isinstance(member.default, tuple):
-        return "[" + ", ".join(literal(type_.base, each) for each in member.default) + "]"
-    if not type_.is_fixed:
-        return "[]"
-    if message_class:
-        return f"[{class_variable(message_class)}() for _ in _range({type_.size})]"
-    return f"[{literal(type_.base, zero(type_.base))}] * {type_.size}"
 
 
 def class_variable(message_class: type) -> str:
@@ -247,7 +251,7 @@ def _finite(text: str) -> str:
 Lines = list[str]
 
 
-def message_source(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> str:
+def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
     """Metaclass, class and fresh-message function of one message."""
     name = definition.name
     defaults = [
@@ -273,7 +277,7 @@ def message_source(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> st
         f"def _fresh_{name}():",
         '    """A message of default values, made without the constructor."""',
         f"    new = _new({name})",
-        *_indent(_fresh_fields("new", kinds)),
+        *_indent(_filled("new", kinds, "", [])),
         "    return new",
         "",
         f"{name}._FRESH = _fresh_{name}",
@@ -284,7 +288,7 @@ def message_source(definition: MessageDefinition, kinds: tuple[Kind, ...]) -> st
 def wrapper_source(definition: Definition, parts: dict[str, str]) -> str:
     """Class of a service or an action: it holds the classes of its parts and cannot be instantiated."""
     name = definition.name
-    what = "Service" if isinstance(definition, ServiceDefinition) else "Action"
+    what = "Service" if len(definition.parts) == 2 else "Action"
     return "\n".join(
         [
             f"class Metaclass_{name}(type):",
@@ -318,31 +322,29 @@ def _identity(definition: Definition) -> Lines:
     ]
 
 
-def _metaclass(definition: MessageDefinition, defaults: list[tuple[str, str]]) -> Lines:
+def _metaclass(definition: Definition, defaults: list[tuple[str, str]]) -> Lines:
     lines = [
         f"class Metaclass_{definition.name}(type):",
         f'    """Metaclass of message \'{definition.name}\'."""',
         "",
         f"    _TYPE_SUPPORT = _support_{definition.name}",
     ]
-    members = [(each.name, f"Message constant '{each.name}'.", _constant(each)) for each in definition.constants]
+    members = [
+        (each.name, f"Message constant '{each.name}'.", literal(each.type, each.value)) for each in definition.constants
+    ]
     members += [(name, "Return default value of a message field.", fresh) for name, fresh in defaults]
     for name, text, value in members:
         lines += _indent(["", "@_property", f"def {name}(cls):", f'    """{text}"""', f"    return {value}"])
     return [*lines, "", ""]
 
 
-def _constant(constant: Constant) -> str:
-    return literal(constant.type, constant.value)
-
-
-def _class_head(definition: MessageDefinition, defaults: list[tuple[str, str]]) -> Lines:
+def _class_head(definition: Definition, defaults: list[tuple[str, str]]) -> Lines:
     name = definition.name
     types = {member.name: str(slot_type(member.type)) for member in definition.fields}
     body = [
         *_docstring(definition, types),
         "",
-        *(f"{constant.name} = {_constant(constant)}" for constant in definition.constants),
+        *(f"{constant.name} = {literal(constant.type, constant.value)}" for constant in definition.constants),
         *(f"{default} = {fresh}" for default, fresh in defaults),
         f"__slots__ = {['_' + member for member in types]!r}",
         f"_fields_and_field_types = {types!r}",
@@ -359,18 +361,18 @@ def _class_head(definition: MessageDefinition, defaults: list[tuple[str, str]]) 
     return [f"class {name}(metaclass=Metaclass_{name}):", *_indent(body)]
 
 
-def _docstring(definition: MessageDefinition, types: dict[str, str]) -> Lines:
+def _docstring(definition: Definition, types: dict[str, str]) -> Lines:
     head = f"Message class '{definition.name}'."
     if not types and not definition.constants:
         return [f'"""{head}"""']
     members = [f"    {name}: {type_}" for name, type_ in types.items()]
-    constants = [f"    {constant.name} = {_constant(constant)}" for constant in definition.constants]
+    constants = [f"    {constant.name} = {literal(constant.type, constant.value)}" for constant in definition.constants]
     text = ["", "Fields:", *members] if members else []
     text += ["", "Constants:", *constants] if constants else []
     return [f'r"""{head}', *(line.replace('"""', "'''") for line in text), '"""']
 
 
-def _constructor(name: str, kinds: tuple[Kind, ...]) -> Lines:
+def _constructor(name: str, kinds: Sequence[Kind]) -> Lines:
     me = "_self" if any(kind.name == "self" for kind in kinds) else "self"
     arguments, body = "", []
     for kind in kinds:
@@ -394,7 +396,7 @@ def _property(kind: Kind) -> Lines:
     return [*lines, f"    self._{kind.name} = {_stored(kind, 'value')}"]
 
 
-def _wire_copy(name: str, kinds: tuple[Kind, ...]) -> Lines:
+def _wire_copy(name: str, kinds: Sequence[Kind]) -> Lines:
     lines = [
         "",
         "def _wire_copy(self):",
@@ -402,7 +404,7 @@ def _wire_copy(name: str, kinds: tuple[Kind, ...]) -> Lines:
         f"    new = _new({name})",
     ]
     packed: list[tuple[str, str]] = []
-    lines += _indent(_copy_fields("new", "self", kinds, packed))
+    lines += _indent(_filled("new", kinds, "self", packed))
     if packed:
         targets = "".join(f"{target}, " for target, _ in packed)
         sources = ", ".join(source for _, source in packed)
@@ -410,31 +412,23 @@ def _wire_copy(name: str, kinds: tuple[Kind, ...]) -> Lines:
     return [*lines, "    return new"]
 
 
-def _copy_fields(new: str, old: str, kinds: tuple[Kind, ...], packed: list[tuple[str, str]]) -> Lines:
-    """Copy field by field; sub messages in place, float32 fields left for one packing at the end."""
+def _filled(new: str, kinds: Sequence[Kind], old: str, packed: list[tuple[str, str]]) -> Lines:
+    """Fill a new message, and those of its messages that are written out, with the values of an old one, or without one afresh.
+
+    An old message's float32 fields are left for one packing at the end.
+    """
     lines: Lines = []
     for kind in kinds:
         target, source = f"{new}._{kind.name}", f"{old}._{kind.name}"
-        if kind.is_float32:
-            packed.append((target, source))
-        elif kind.message_class is None or kind.inlined is None:
-            lines.append(f"{target} = {kind.copy.format(value=source)}")
-        else:
-            inner_new, inner_old = f"{new}__{kind.name}", f"{old}__{kind.name}"
-            lines.append(f"{inner_old} = {source}")
-            lines.append(f"{target} = {inner_new} = _new({class_variable(kind.message_class)})")
-            lines += _copy_fields(inner_new, inner_old, kind.inlined, packed)
-    return lines
-
-
-def _fresh_fields(new: str, kinds: tuple[Kind, ...]) -> Lines:
-    lines: Lines = []
-    for kind in kinds:
-        target = f"{new}._{kind.name}"
-        if kind.message_class is None or kind.inlined is None:
+        if kind.message_class is not None and kind.inlined is not None:
+            inner, inner_old = f"{new}__{kind.name}", f"{old}__{kind.name}" if old else ""
+            lines += [f"{inner_old} = {source}"] if old else []
+            lines.append(f"{target} = {inner} = _new({class_variable(kind.message_class)})")
+            lines += _filled(inner, kind.inlined, inner_old, packed)
+        elif not old:
             lines.append(f"{target} = {kind.fresh}")
+        elif kind.is_float32:
+            packed.append((target, source))
         else:
-            inner_new = f"{new}__{kind.name}"
-            lines.append(f"{target} = {inner_new} = _new({class_variable(kind.message_class)})")
-            lines += _fresh_fields(inner_new, kind.inlined)
+            lines.append(f"{target} = {kind.copy.format(value=source)}")
     return lines

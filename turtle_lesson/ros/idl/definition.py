@@ -7,87 +7,55 @@ exist is not known here: that is the registry's part.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
 
 from . import names
-from .model import (
-    ActionDefinition,
-    ArrayKind,
-    Constant,
-    DuplicateName,
-    Field,
-    FieldType,
-    IndentedLine,
-    InvalidActionSpecification,
-    InvalidDefinition,
-    InvalidFieldDefinition,
-    InvalidResourceName,
-    InvalidServiceSpecification,
-    InvalidType,
-    InvalidValue,
-    MessageDefinition,
-    Plain,
-    ServiceDefinition,
-    UnsupportedDefault,
-    Value,
-)
+from .model import ArrayKind, Constant, Definition, Field, FieldType, InvalidDefinition, Plain, Value
 from .names import FLOATS, STRINGS, integer_bounds
 
 Line = tuple[int, str]  # line number in the file, counted from 1, and the text
 
-
-def parse_message(package: str, name: str, text: str, file: str | None = None) -> MessageDefinition:
-    """Read the text of a `.msg` file; raise InvalidDefinition where ROS refuses it."""
-    return _parse_part(package, name, "msg", _numbered(text), file, text)
+PARTS = {"msg": (), "srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
+"""The folders of a package, and the parts of the interfaces in them, between which there is a line `---`."""
 
 
-def parse_service(package: str, name: str, text: str, file: str | None = None) -> ServiceDefinition:
-    """Read the text of a `.srv` file: request, a line `---`, response."""
-    parts = _split(text)
-    if len(parts) != 2:
-        unique = "" if len(parts) < 2 else "unique "
-        raise InvalidServiceSpecification(
-            f"Could not find {unique}separator '---' between request and response",
-            hint="A service is its request, one line of exactly three dashes, its response",
-        ).locate(interface=f"{package}/srv/{name}", file=file)
-    request = _parse_part(package, f"{name}_Request", "srv", parts[0], file)
-    response = _parse_part(package, f"{name}_Response", "srv", parts[1], file)
-    return ServiceDefinition(package, name, request, response, text, file)
-
-
-def parse_action(package: str, name: str, text: str, file: str | None = None) -> ActionDefinition:
-    """Read the text of an `.action` file: goal, `---`, result, `---`, feedback."""
-    parts = _split(text)
-    if len(parts) != 3:
-        raise InvalidActionSpecification(
-            "Number of '---' separators nonconformant with action definition",
-            hint="An action is its goal, its result and its feedback, with a line of three dashes between",
-        ).locate(interface=f"{package}/action/{name}", file=file)
-    goal = _parse_part(package, f"{name}_Goal", "action", parts[0], file)
-    result = _parse_part(package, f"{name}_Result", "action", parts[1], file)
-    feedback = _parse_part(package, f"{name}_Feedback", "action", parts[2], file)
-    return ActionDefinition(package, name, goal, result, feedback, text, file)
-
-
-def _numbered(text: str) -> list[Line]:
-    return list(enumerate(text.replace("\t", " ").splitlines(), start=1))
-
-
-def _split(text: str) -> list[list[Line]]:
+def parse(folder: str, package: str, name: str, text: str, file: str | None = None) -> Definition:
+    """Read the text of a `.msg`, `.srv` or `.action` file, which is the `folder`; InvalidDefinition where ROS refuses it."""
+    lines = list(enumerate(text.replace("\t", " ").splitlines(), start=1))
+    if folder == "msg":
+        return _parse_message(folder, package, name, lines, text, file)
     parts: list[list[Line]] = [[]]
-    for number, line in _numbered(text):
+    for number, line in lines:
         if line == "---":
             parts.append([])
         else:
             parts[-1].append((number, line))
-    return parts
+    if len(parts) != len(PARTS[folder]):
+        raise _wrong_separators(folder, len(parts)).locate(interface=f"{package}/{folder}/{name}", file=file)
+    messages = tuple(
+        _parse_message(folder, package, f"{name}_{part}", own, "\n".join(line for _, line in own), file)
+        for part, own in zip(PARTS[folder], parts, strict=True)
+    )
+    return Definition(package, folder, name, text, file, parts=messages)
 
 
-def _parse_part(
-    package: str, name: str, folder: str, lines: list[Line], file: str | None, text: str | None = None
-) -> MessageDefinition:
+def _wrong_separators(folder: str, parts: int) -> InvalidDefinition:
+    if folder == "srv":
+        return InvalidDefinition(
+            f"Could not find {'unique ' if parts > 1 else ''}separator '---' between request and response",
+            "InvalidServiceSpecification",
+            hint="A service is its request, one line of exactly three dashes, its response",
+        )
+    return InvalidDefinition(
+        "Number of '---' separators nonconformant with action definition",
+        "InvalidActionSpecification",
+        hint="An action is its goal, its result and its feedback, with a line of three dashes between",
+    )
+
+
+def _parse_message(folder: str, package: str, name: str, lines: list[Line], text: str, file: str | None) -> Definition:
     members: list[Field | Constant] = []
     interface = f"{package}/{folder}/{name}"
     for number, raw in lines:
@@ -98,51 +66,46 @@ def _parse_part(
             members.append(_parse_line(package, name, line, number))
         except InvalidDefinition as error:
             raise error.locate(interface=interface, file=file, line=number, line_text=line.strip()) from None
-    fields = tuple(each for each in members if isinstance(each, Field))
-    constants = tuple(each for each in members if isinstance(each, Constant))
     try:
-        names.check_package(package)
-        names.check_message(name)
-        _check_unique("fields", fields)
-        _check_unique("constants", constants)
+        names.check("package", package)
+        names.check("message", name)
     except InvalidDefinition as error:
         raise error.locate(interface=interface, file=file) from None
-    body = "\n".join(line for _, line in lines) if text is None else text
-    return MessageDefinition(package, name, fields, constants, body, folder, file)
+    fields = tuple(each for each in members if isinstance(each, Field))
+    constants = tuple(each for each in members if isinstance(each, Constant))
+    groups: dict[str, Sequence[Field | Constant]] = {"fields": fields, "constants": constants}
+    for what, found in groups.items():
+        first = {each.name: each for each in reversed(found)}
+        twice = next((each for each in found if first[each.name] is not each), None)
+        if twice is not None:
+            refused = InvalidDefinition(f"the {what} iterable contains duplicate names: {twice.name}")
+            raise refused.locate(interface=interface, file=file, line=twice.line, line_text=str(twice))
+    return Definition(package, folder, name, text, file, fields, constants)
 
 
 def _parse_line(package: str, name: str, line: str, number: int) -> Field | Constant:
     type_text, _, rest = line.partition(" ")
     rest = rest.lstrip()
     if not rest:
-        raise InvalidFieldDefinition(
-            line, hint="A field is its type and its name", printed=f"Error with: {package} {name} {line}"
+        hint = "A field is its type and its name"
+        raise InvalidDefinition(
+            line, "InvalidFieldDefinition", hint=hint, printed=f"Error with: {package} {name} {line}"
         )
     if "=" in rest:
         member, _, value = rest.partition("=")
         if type_text not in names.PRIMITIVES:
-            raise InvalidType(f"the constant type '{type_text}' must be a primitive type")
-        names.check_constant(member.rstrip())
+            raise InvalidDefinition(f"the constant type '{type_text}' must be a primitive type", "TypeError")
+        names.check("constant", member.rstrip())
         return Constant(type_text, member.rstrip(), _parse_plain(type_text, value.lstrip()), number)
     try:
         type_ = _parse_type(type_text, package)
         member, _, default = rest.partition(" ")
-        names.check_field(member)
+        names.check("field", member)
         default = default.lstrip()
         return Field(type_, member, _parse_default(type_, default) if default else None, number)
     except InvalidDefinition as error:
         error.printed = f"Error processing '{line}' of '{package}/{name}': '{error.reason}'"
         raise
-
-
-def _check_unique(what: str, members: Iterable[Field | Constant]) -> None:
-    seen: set[str] = set()
-    for member in members:
-        if member.name in seen:
-            error = DuplicateName(f"the {what} iterable contains duplicate names: {member.name}")
-            error.line, error.line_text = member.line, str(member)
-            raise error
-        seen.add(member.name)
 
 
 # -- types --------------------------------------------------------------------------------------------------------
@@ -151,18 +114,20 @@ def _check_unique(what: str, members: Iterable[Field | Constant]) -> None:
 def _parse_type(text: str, package: str) -> FieldType:
     """Read the type of a field; a message without a package is one of the `package` given."""
     if not text:
-        raise IndentedLine("string index out of range", hint="Begin the line with the type, without spaces")
+        hint = "Begin the line with the type, without spaces"
+        raise InvalidDefinition("string index out of range", "IndexError", hint=hint)
     if not text.endswith("]"):
         return _parse_base(text, package)
     if "[" not in text:
-        raise InvalidType(f"the type {text} ends with ']' but does not contain a '['")
+        raise InvalidDefinition(f"the type {text} ends with ']' but does not contain a '['", "TypeError")
     base, _, count = text[:-1].rpartition("[")
     size = _positive(count.removeprefix("<="))
     if count and size is None:
         # The two names stand the wrong way round in ROS's text as well.
-        raise InvalidType(
+        raise InvalidDefinition(
             f"the size of array type '<=' must be a valid integer value > 0 optionally prefixed with '{text}'"
             " if it is only an upper bound",
+            "TypeError",
             hint=f"Write {base}[3], {base}[<=3] or {base}[]",
         )
     element = _parse_base(base, package)
@@ -177,18 +142,19 @@ def _parse_base(text: str, package: str) -> FieldType:
         base, _, count = text.partition("<=")
         bound = _positive(count)
         if bound is None:
-            raise InvalidType(
+            raise InvalidDefinition(
                 f"the upper bound of the string type '{text}' must be a valid integer value > 0",
+                "TypeError",
                 hint=f"Write {base}<=10",
             )
         return FieldType(base, string_bound=bound)
     parts = text.split("/")
     if len(parts) > 2:
         hint = f"Write '{parts[-3]}/{parts[-1]}'" if parts[1:-1] == ["msg"] else "Write 'package/Message'"
-        raise InvalidResourceName(text, hint=hint)
+        raise InvalidDefinition(text, "InvalidResourceName", hint=hint)
     owner = parts[0] if len(parts) == 2 else package
-    names.check_package(owner)
-    names.check_message(parts[-1])
+    names.check("package", owner)
+    names.check("message", parts[-1])
     return FieldType(parts[-1], owner)
 
 
@@ -206,8 +172,9 @@ def _positive(text: str) -> int | None:
 def _parse_default(type_: FieldType, text: str) -> Value:
     """Read a field's default value, `[1, 2, 3]` for an array or sequence."""
     if not type_.is_primitive:
-        raise UnsupportedDefault(
+        raise InvalidDefinition(
             f"parsing string values into type '{type_}' is not supported",
+            "NotImplementedError",
             hint="Only fields of primitive types can have a default value",
         )
     if not type_.is_array:
@@ -224,7 +191,7 @@ def _parse_default(type_: FieldType, text: str) -> Value:
     for index, element in enumerate(elements):
         try:
             values.append(_parse_plain(type_.base, element.strip(), type_.string_bound))
-        except InvalidValue as error:
+        except InvalidDefinition as error:
             raise _invalid(type_, text, f"element {index} with {error.reason}") from None
     return tuple(values)
 
@@ -289,8 +256,8 @@ def _split_strings(text: str) -> list[str]:
     return elements
 
 
-def _invalid(type_: object, text: str, rule: str) -> InvalidValue:
-    return InvalidValue(f"value '{text}' can not be converted to type '{type_}': {rule}")
+def _invalid(type_: object, text: str, rule: str) -> InvalidDefinition:
+    return InvalidDefinition(f"value '{text}' can not be converted to type '{type_}': {rule}", "InvalidValue")
 
 
 # -- comments -----------------------------------------------------------------------------------------------------
@@ -309,24 +276,15 @@ def with_comments(directory: Path, interface: str, text: str) -> str:
     file = directory / "comments.txt"
     found = file.read_text(encoding="utf-8") if file.is_file() else ""
     section = f"\n{found}".partition(f"\n[{interface}]\n")[2].partition("\n[")[0].strip()
+    parts, comments = (re.split(r"^---$\n?", each, flags=re.MULTILINE) for each in (text, section))
     lines: list[str] = []
-    none: list[str] = []
-    for number, (definition, comments) in enumerate(zip_longest(_parts(text), _parts(section), fillvalue=none)):
+    for number, (part, said) in enumerate(zip_longest(parts, comments, fillvalue="")):
+        about = [line for line in said.splitlines() if line.startswith("#")]
+        meanings = dict(line.split(": ", 1) for line in said.splitlines() if line and line not in about)
+        members = [(line, _MEMBER.match(line)) for line in part.splitlines()]
+        pairs = [(line, meanings.get(member[1]) if member else None) for line, member in members]
+        width = max((len(line) for line, meaning in pairs if meaning), default=0)
         lines += ["---"] if number else []
-        lines += _commented(definition, comments)
+        lines += [*about, *([""] if about and pairs else [])]
+        lines += [f"{line:<{width}}  # {meaning}" if meaning else line for line, meaning in pairs]
     return "\n".join(lines)
-
-
-def _parts(text: str) -> list[list[str]]:
-    return [part.splitlines() for part in re.split(r"^---$\n?", text, flags=re.MULTILINE)]
-
-
-def _commented(definition: list[str], comments: list[str]) -> list[str]:
-    """The lines of one part: what it is, then each member, with their meanings below each other."""
-    about = [line for line in comments if line.startswith("#")]
-    meanings = dict(line.split(": ", 1) for line in comments if line and not line.startswith("#"))
-    members = [(line, _MEMBER.match(line)) for line in definition]
-    pairs = [(line, meanings.get(member[1]) if member else None) for line, member in members]
-    width = max((len(line) for line, meaning in pairs if meaning), default=0)
-    shown = [f"{line:<{width}}  # {meaning}" if meaning else line for line, meaning in pairs]
-    return [*about, *([""] if about and shown else []), *shown]

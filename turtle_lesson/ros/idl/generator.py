@@ -8,6 +8,7 @@ ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another
 from __future__ import annotations
 
 import codecs
+import keyword
 import linecache
 import marshal
 import os
@@ -15,7 +16,7 @@ import re
 import sys
 import warnings
 from array import array
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -33,27 +34,13 @@ from . import message
 from .checks import FLOAT_BOUNDS
 from .codegen import Kind, kind_of, message_source, weight_of, wrapper_source
 from .message import slot_type
-from .model import (
-    ActionDefinition,
-    Constant,
-    Definition,
-    Field,
-    FieldType,
-    InvalidDefinition,
-    InvalidType,
-    InvalidValue,
-    MessageDefinition,
-    Plain,
-    ServiceDefinition,
-    Value,
-    derived_parts,
-)
-from .names import STRINGS, check_buildable_field, check_class_name, module_name
+from .model import Constant, Definition, Field, FieldType, InvalidDefinition, Plain, carriers
+from .names import STRINGS, module_name
 
 Resolve = Callable[[FieldType], type]
-"""Gives the class of a field's messages; raises UnknownMessageType where there is none."""
+"""Gives the class of a field's messages; raises InvalidDefinition where there is none."""
 
-_BUILT_IN = (bool, bytes, classmethod, dict, float, int, isinstance, len, property, range, str, type)
+_BUILT_IN = (bool, bytes, classmethod, dict, float, int, isinstance, len, list, property, range, str, type)
 _SHARED = (
     message.message_repr, message.numpy_array, message.numpy_zeros, message.refuse_arguments, message.same_array,
 )  # fmt: skip
@@ -69,145 +56,112 @@ def make_module(definition: Definition, resolve: Resolve) -> ModuleType:
 
     Raises InvalidDefinition where ROS could not generate Python code either.
     """
-    builder = _Builder(definition, resolve)
-    if isinstance(definition, MessageDefinition):
-        builder.add_message(definition)
-    elif isinstance(definition, ServiceDefinition):
-        builder.add_service(definition)
-    else:
-        builder.add_action(definition)
-    return builder.finish()
+    stem = module_name(definition.name)
+    module = ModuleType(
+        f"{definition.package}.{definition.folder}.{stem}", f"Classes generated from {definition.full_name}."
+    )
+    module.__file__ = f"generated/{definition.package}/{definition.folder}/{stem}.py"
+    builder = _Builder(module, resolve)
+    builder.add(definition)
+    lines = builder.source.splitlines(keepends=True)
+    linecache.cache[module.__file__] = (len(builder.source), None, lines, module.__file__)
+    return module
 
 
 class _Builder:
-    """Collects the classes of one interface file, each executed as soon as its source is written."""
+    """Adds the classes of one interface file to its module, each executed as soon as its source is written."""
 
-    def __init__(self, definition: Definition, resolve: Resolve) -> None:
-        stem = module_name(definition.name)
-        self._module = ModuleType(
-            f"{definition.package}.{definition.folder}.{stem}",
-            f"Classes generated from {definition.full_name}.",
-        )
-        self._file = f"generated/{definition.package}/{definition.folder}/{stem}.py"
-        self._module.__file__ = self._file
-        self._globals = self._module.__dict__
+    def __init__(self, module: ModuleType, resolve: Resolve) -> None:
+        self._module = module
+        self._globals = module.__dict__
         self._globals.update(COMMON)
-        self._source = ""
         self._resolve = resolve
+        self.source = ""
 
-    def add_message(self, definition: MessageDefinition) -> None:
-        """Add the class of a message or of a part of a service or action."""
+    def add(self, definition: Definition) -> None:
+        """Add the class of a message, or the classes of a service or action and of all in which ROS carries it."""
+        is_action = len(definition.parts) == 3
+        for part in definition.parts + (carriers(definition) if is_action else ()):
+            self.add(part)
+        if not definition.parts:
+            self._add_message(definition)
+            return
         name = definition.name
-        kinds = tuple(self._kind(definition, member) for member in definition.fields)
+        parts = {part.name.rpartition("_")[2]: part.name for part in definition.parts}
+        if is_action:
+            impl = {
+                "SendGoalService": self._globals[f"{name}_SendGoal"],
+                "GetResultService": self._globals[f"{name}_GetResult"],
+                "FeedbackMessage": self._globals[f"{name}_FeedbackMessage"],
+                "CancelGoalService": self._resolve(FieldType("CancelGoal", "action_msgs", folder="srv")),
+                "GoalStatusMessage": self._resolve(FieldType("GoalStatusArray", "action_msgs")),
+                "__module__": self._module.__name__,
+            }
+            parts["Impl"] = f"_impl_{name}"
+            self._globals[f"_impl_{name}"] = type("Impl", (), impl)
+        self._run(definition, "action" if is_action else "srv", wrapper_source(definition, parts))
+
+    def _add_message(self, definition: Definition) -> None:
+        name, constants = definition.name, []
+        member: Field | Constant | None = None
         try:
-            check_class_name(name)
+            if keyword.iskeyword(name):
+                reason = f"'{name}' is a keyword of Python, which cannot be the name of a class"
+                raise InvalidDefinition(reason, "InvalidResourceName")
+            kinds = []
+            for member in definition.fields:
+                kinds.append(self._kind(definition, member))
+            for member in definition.constants:
+                constants.append(replace(member, value=built_value(member.type, member.value)))
+            member = None
             check_weight(name, weight_of(kinds))
         except InvalidDefinition as error:
-            raise error.locate(interface=definition.full_name, file=definition.file) from None
-        constants = []
-        for constant in definition.constants:
-            try:
-                constants.append(replace(constant, value=built_value(constant.type, constant.value)))
-            except InvalidDefinition as error:
-                raise _located(error, definition, constant) from None
-        definition = replace(definition, constants=tuple(constants))
-        self._globals[f"_kinds_{name}"] = kinds
-        self._globals[f"_slot_types_{name}"] = tuple(slot_type(member.type) for member in definition.fields)
-        for kind in _with_inner(kinds):
+            line, text = (None, None) if member is None else (member.line or None, str(member))
+            raise error.locate(
+                interface=definition.full_name, file=definition.file, line=line, line_text=text
+            ) from None
+        self._globals[f"_kinds_{name}"] = tuple(kinds)
+        self._globals[f"_slot_types_{name}"] = tuple(slot_type(field.type) for field in definition.fields)
+        written_out = list(_with_inner(kinds))
+        for kind in written_out:
             self._globals.update(kind.objects)
         for kind in kinds:
             if not kind.shares:
-                self._globals[f"_unset_{name}_{kind.name}"] = message.Unset(_signature_default(kind))
-        if rounded := sum(kind.is_float32 for kind in _with_inner(kinds)):
+                self._globals[f"_unset_{name}_{kind.name}"] = message.Unset(kind.shown_default)
+        if rounded := sum(kind.is_float32 for kind in written_out):
             packing = Struct(f"{rounded}f")  # rounds them to float32
             self._globals.update({f"_pack_{rounded}": packing.pack, f"_unpack_{rounded}": packing.unpack})
-        self._run(definition, message_source(definition, kinds))
+        definition = replace(definition, constants=tuple(constants))
+        self._run(definition, definition.folder, message_source(definition, kinds))
 
-    def add_service(self, definition: ServiceDefinition) -> None:
-        """Add request, response and the class that holds both."""
-        for part in definition.parts():
-            self.add_message(part)
-        self._add_wrapper(definition, {"Request": definition.request.name, "Response": definition.response.name})
+    def _run(self, definition: Definition, kind: str, source: str) -> None:
+        self._globals[f"_support_{definition.name}"] = message.TypeSupport(kind, definition.full_name)
+        self._globals[f"_definition_{definition.name}"] = definition
+        self.source += "\n\n" if self.source else ""
+        first_line = self.source.count("\n")
+        self.source += source
+        exec(compiled("\n" * first_line + source, str(self._module.__file__)), self._globals)
 
-    def add_action(self, definition: ActionDefinition) -> None:
-        """Add goal, result, feedback, the class that holds them, and what carries them (`Impl`)."""
-        for part in (*definition.parts(), *derived_parts(definition)):
-            self.add_message(part)
-        name = definition.name
-        for service in (f"{name}_SendGoal", f"{name}_GetResult"):
-            request, response = (self._globals[f"{service}_{part}"]._DEFINITION for part in ("Request", "Response"))
-            carrier = ServiceDefinition(definition.package, service, request, response, "", definition.file, "action")
-            self._add_wrapper(carrier, {"Request": request.name, "Response": response.name})
-        impl = {
-            "SendGoalService": self._globals[f"{name}_SendGoal"],
-            "GetResultService": self._globals[f"{name}_GetResult"],
-            "FeedbackMessage": self._globals[f"{name}_FeedbackMessage"],
-            "CancelGoalService": self._resolve(FieldType("CancelGoal", "action_msgs", folder="srv")),
-            "GoalStatusMessage": self._resolve(FieldType("GoalStatusArray", "action_msgs")),
-            "__module__": self._module.__name__,
-        }
-        self._globals[f"_impl_{name}"] = type("Impl", (), impl)
-        parts = {part.name.rpartition("_")[2]: part.name for part in definition.parts()}
-        self._add_wrapper(definition, {**parts, "Impl": f"_impl_{name}"})
-
-    def finish(self) -> ModuleType:
-        """The module with all that was added."""
-        lines = self._source.splitlines(keepends=True)
-        linecache.cache[self._file] = (len(self._source), None, lines, self._file)
-        self._source = ""  # the cache has it
-        return self._module
-
-    def _add_wrapper(self, definition: Definition, parts: dict[str, str]) -> None:
-        self._run(definition, wrapper_source(definition, parts))
-
-    def _run(self, definition: Definition, source: str) -> None:
-        name = definition.name
-        kind = "srv" if isinstance(definition, ServiceDefinition) else definition.folder
-        self._globals[f"_support_{name}"] = message.TypeSupport(kind, definition.full_name)
-        self._globals[f"_definition_{name}"] = definition
-        if self._source:
-            self._source += "\n\n"
-        first_line = self._source.count("\n")
-        self._source += source
-        exec(compiled("\n" * first_line + source, self._file), self._globals)
-
-    def _kind(self, definition: MessageDefinition, member: Field) -> Kind:
-        try:
-            check_buildable_field(member)
-            built = member if member.default is None else replace(member, default=built_default(member))
-            return kind_of(definition, built, self._message_class(definition, member.type))
-        except InvalidDefinition as error:
-            raise _located(error, definition, member) from None
-
-    def _message_class(self, definition: MessageDefinition, type_: FieldType) -> type | None:
+    def _kind(self, definition: Definition, field: Field) -> Kind:
+        check_buildable(field)
+        default, type_ = field.default, field.type
+        if isinstance(default, tuple):
+            default = tuple(built_value(type_.base, each, type_.string_bound) for each in default)
+        elif default is not None:
+            default = built_value(type_.base, default, type_.string_bound)
+        field = replace(field, default=default)
         if type_.is_primitive:
-            return None
-        if (type_.package, type_.folder) == (definition.package, definition.folder) != (type_.package, "msg"):
-            own: type = self._globals[type_.base]
-            return own
-        return self._resolve(type_)
+            return kind_of(definition, field, None)
+        is_own = type_.folder == "action"  # a goal, a result or feedback, in the messages that carry it
+        return kind_of(definition, field, self._globals[type_.base] if is_own else self._resolve(type_))
 
 
-def _with_inner(kinds: tuple[Kind, ...]) -> Iterator[Kind]:
+def _with_inner(kinds: Iterable[Kind]) -> Iterator[Kind]:
     """All fields, those of messages that are written out included."""
     for kind in kinds:
         yield kind
         if kind.inlined is not None:
             yield from _with_inner(kind.inlined)
-
-
-def _signature_default(kind: Kind) -> str:
-    return (
-        f"{kind.message_class.__name__}()"
-        if kind.message_class
-        else kind.fresh.replace("_numpy_", "numpy.").replace("_array('", "array('")
-    )
-
-
-def _located(error: InvalidDefinition, definition: MessageDefinition, member: Field | Constant) -> InvalidDefinition:
-    return error.locate(
-        interface=definition.full_name, file=definition.file, line=member.line or None, line_text=str(member)
-    )
 
 
 # -- what can be read in a definition and yet not be built -------------------------------------------------------------
@@ -216,40 +170,64 @@ def _located(error: InvalidDefinition, definition: MessageDefinition, member: Fi
 # rosidl_parser/parser.py, rosidl_generator_py; for special numbers ros2/rosidl issue 351, for words of C++ issue
 # 272).
 
+TAKEN = ("wire_copy", "fields_and_field_types")
+"""Attributes of our own in the classes, which fields of these names would replace."""
+
+_CPP = """
+    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
+    const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern false
+    float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private
+    protected public register reinterpret_cast restrict return short signed sizeof static static_assert static_cast
+    struct switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void
+    volatile wchar_t while xor xor_eq
+"""
+CPP_WORDS = frozenset(_CPP.split())
+"""The reserved words of C and of C++17."""
+
 MAX_WEIGHT = 10_000_000
 """How many values and messages one message may consist of: more would fill the memory of a small computer."""
 
 
+def check_buildable(field: Field) -> None:
+    """Raise InvalidDefinition for a field that no build gets through."""
+    name, base = field.name, field.type.base
+    error, hint = "NameError", "Please use a different name"
+    if base in ("time", "duration"):
+        reason, error = f"the type '{base}' belongs to ROS 1", "TypeError"
+        hint = f"Write 'builtin_interfaces/{base.capitalize()} {name}'"
+    elif keyword.iskeyword(name):
+        reason = f"Member name '{name}' is a reserved keyword in Python and is not supported at the moment. {hint}"
+        hint = ""
+    elif name in CPP_WORDS:
+        reason = f"Member name '{name}' is a keyword of C++, in which ROS 2 also generates code"
+        hint += f", such as '{name}_value'"
+    elif name in TAKEN:
+        reason = f"the field name '{name}' is taken"
+    else:
+        return
+    raise InvalidDefinition(reason, error, hint=hint)
+
+
 def check_weight(name: str, weight: int) -> None:
-    """Raise InvalidType for a message of which each instance would consist of too many values."""
+    """Raise InvalidDefinition for a message of which each instance would consist of too many values."""
     if weight > MAX_WEIGHT:
-        raise InvalidType(
+        raise InvalidDefinition(
             f"each message {name} would consist of {weight:,} values, which is more than fits into memory here",
+            "TypeError",
             hint="A sequence such as float64[] is as long as what is in it",
         )
 
 
-def built_default(field: Field) -> Value | None:
-    """A field's default value as the built class has it; InvalidValue where a build would fail on it."""
-    base = field.type.base
-    if isinstance(field.default, tuple):
-        return tuple(built_value(base, each, field.type.string_bound) for each in field.default)
-    return None if field.default is None else built_value(base, field.default, field.type.string_bound)
-
-
 def built_value(base: str, value: Plain, string_bound: int | None = None) -> Plain:
     """One value of a primitive type as the built class has it."""
+    if base in STRINGS and isinstance(value, str):
+        return _text(value, string_bound)
     if base in FLOAT_BOUNDS and isinstance(value, float):
-        return _number(base, value)
-    return _text(value, string_bound) if base in STRINGS and isinstance(value, str) else value
-
-
-def _number(base: str, value: float) -> float:
-    if not isfinite(value):
-        hint = "Set it in the program: float('nan'), float('inf')"
-        raise InvalidValue(f"value '{value}' cannot be written in a form that a build accepts", hint=hint)
-    if abs(value) > FLOAT_BOUNDS[base]:
-        raise InvalidValue(f"value '{value}' is too large for {base}")
+        if not isfinite(value):
+            hint = "Set it in the program: float('nan'), float('inf')"
+            raise _invalid(f"value '{value}' cannot be written in a form that a build accepts", hint)
+        if abs(value) > FLOAT_BOUNDS[base]:
+            raise _invalid(f"value '{value}' is too large for {base}")
     return value
 
 
@@ -257,24 +235,22 @@ def _text(text: str, bound: int | None) -> str:
     """A text after its way through IDL, which decodes escapes such as `\\n` and `\\x41`."""
     if text.isascii() and "\\" not in text:
         return text
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of escapes that are none, such as \d: they stay as they are
-            idl = text.encode().decode("unicode_escape").replace('"', r"\"").encode("latin-1").decode()
-            seen = re.sub(r"\\x.{1,2}", lambda match: codecs.decode(match[0], "unicode_escape"), idl)
-    except UnicodeError:
-        raise _lost(text) from None
-    if len(re.search(r"\\*$", idl)[0]) % 2:  # type: ignore[index]
-        raise _lost(text)
+    seen = None
+    with suppress(UnicodeError), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of escapes that are none, such as \d: they stay as they are
+        idl = text.encode().decode("unicode_escape").replace('"', r"\"").encode("latin-1").decode()
+        seen = re.sub(r"\\x.{1,2}", lambda match: codecs.decode(match[0], "unicode_escape"), idl)
+    if seen is None or len(re.search(r"\\*$", idl)[0]) % 2:  # type: ignore[index]
+        hint = r"Write three more backslashes before each one that is to stay; write é itself, not \u00e9"
+        raise _invalid(f"value '{text}' has a backslash that no build accepts", hint)
     seen = re.sub(r'\\(["\\])', r"\1", seen)
     if bound is not None and len(seen) > bound:
-        raise InvalidValue(f"value '{text}' is longer than {bound} characters once its escapes are read")
+        raise _invalid(f"value '{text}' is longer than {bound} characters once its escapes are read")
     return seen
 
 
-def _lost(text: str) -> InvalidValue:
-    hint = r"Write three more backslashes before each one that is to stay; write é itself, not \u00e9"
-    return InvalidValue(f"value '{text}' has a backslash that no build accepts", hint=hint)
+def _invalid(reason: str, hint: str = "") -> InvalidDefinition:
+    return InvalidDefinition(reason, "InvalidValue", hint=hint)
 
 
 # -- the user's cache folder -------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -39,14 +39,9 @@ def message_repr(message: Any) -> str:
     kind = type(message)
     package = kind.__module__.rpartition(".")[0]
     name = f"{package}.{kind.__name__}" if package else kind.__name__
-    fields = ", ".join(f"{slot[1:]}={_field_repr(getattr(message, slot))}" for slot in message.__slots__)
-    return f"{name}({fields})"
-
-
-def _field_repr(value: object) -> str:
-    if isinstance(value, array):
-        return repr(value)[len("array('f', ") : -1] if value else "[]"
-    return repr(value)
+    values = ((slot, getattr(message, slot)) for slot in message.__slots__)
+    shown = (f"{slot[1:]}={value.tolist() if isinstance(value, array) else value!r}" for slot, value in values)
+    return f"{name}({', '.join(shown)})"
 
 
 def numpy_array(values: Any, dtype: str) -> Any:
@@ -82,21 +77,6 @@ def refuse_arguments(message_class: type, unknown: Iterable[str]) -> None:
     raise refusal(f"Invalid arguments passed to constructor: {', '.join(names)}", note)
 
 
-def copy_messages(check: Callable[[Any], Any]) -> Callable[[Any], list[Any]]:
-    """Copier of a field that holds several messages; what was slipped in since the check is refused here."""
-    return lambda value: [each._wire_copy() for each in check(value)]
-
-
-def copy_texts(check: Callable[[Any], Any]) -> Callable[[Any], list[str]]:
-    """Copier of a field that holds several strings."""
-    return lambda value: [plain_text(each) for each in check(value)]
-
-
-def copy_values(check: Callable[[Any], Any]) -> Callable[[Any], list[Any]]:
-    """Copier of a field that holds several booleans or bytes."""
-    return lambda value: list(check(value))
-
-
 # -- slot types ---------------------------------------------------------------------------------------------------
 # What `SLOT_TYPES` of a message class holds: its fields' types as small objects.
 # Names, attributes and what is a kind of what are those of `rosidl_parser.definition`, so that code written for it
@@ -116,14 +96,8 @@ class AbstractType:
         return self._shown.format(self)
 
 
-class AbstractNestableType(AbstractType):
-    """Any type that the elements of an array or sequence may have."""
-
-    __slots__ = ()
-
-
 @dataclass(frozen=True, slots=True)
-class BasicType(AbstractNestableType):
+class BasicType(AbstractType):
     """A number, a boolean or a byte, by its IDL name: `double`, `int32`, `boolean`, `octet`, ..."""
 
     typename: str
@@ -131,15 +105,7 @@ class BasicType(AbstractNestableType):
 
 
 @dataclass(frozen=True, slots=True)
-class NamedType(AbstractNestableType):
-    """A type known by its bare name; our definitions have none, programs may ask."""
-
-    name: str
-    _shown = "{0.name}"
-
-
-@dataclass(frozen=True, slots=True)
-class NamespacedType(AbstractNestableType):
+class NamespacedType(AbstractType):
     """A message: `NamespacedType(['geometry_msgs', 'msg'], 'Vector3')`."""
 
     namespaces: list[str]
@@ -151,14 +117,10 @@ class NamespacedType(AbstractNestableType):
         return (*self.namespaces, self.name)
 
 
-class AbstractGenericString(AbstractNestableType):
+class AbstractGenericString(AbstractType):
     """Any string."""
 
     __slots__ = ()
-
-    def has_maximum_size(self) -> bool:
-        """Whether its length is bounded."""
-        return hasattr(self, "maximum_size")
 
 
 class AbstractString(AbstractGenericString):
@@ -207,11 +169,7 @@ class BoundedWString(AbstractWString):
 class AbstractNestedType(AbstractType):
     """Several values of one type."""
 
-    value_type: AbstractNestableType
-
-    def has_maximum_size(self) -> bool:
-        """Whether there is a largest number of values."""
-        return hasattr(self, "maximum_size") or hasattr(self, "size")
+    value_type: AbstractType
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,7 +209,7 @@ def slot_type(type_: FieldType) -> AbstractType:
     return Array(element, type_.size) if type_.is_fixed else BoundedSequence(element, type_.size)
 
 
-def _element(type_: FieldType) -> AbstractNestableType:
+def _element(type_: FieldType) -> AbstractType:
     if type_.package is not None:
         return NamespacedType([type_.package, type_.folder], type_.base)
     bound = type_.string_bound

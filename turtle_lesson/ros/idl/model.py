@@ -1,6 +1,6 @@
-"""Interface definitions as data: messages, services and actions, what ROS derives from actions, and what can be wrong.
+"""Interface definitions as data, what ROS derives from actions, and the error of a wrong definition.
 
-Made by the functions of `definition`; all but the errors is immutable.
+Made by `definition.parse`; all but the error is immutable.
 """
 
 from __future__ import annotations
@@ -89,11 +89,23 @@ class Constant:
         return f"{self.type} {self.name}={value}"
 
 
-class _Named:
-    __slots__ = ()
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """A message, with its fields and constants in the order of the file, or a service or action, with its parts.
+
+    Attributes:
+        folder: `msg`, `srv` or `action`.
+        parts: the messages of a service (`X_Request`, `X_Response`) or action (`X_Goal`, `X_Result`, `X_Feedback`).
+    """
+
     package: str
     folder: str
     name: str
+    text: str
+    file: str | None = None
+    fields: tuple[Field, ...] = ()
+    constants: tuple[Constant, ...] = ()
+    parts: tuple[Definition, ...] = ()
 
     @property
     def full_name(self) -> str:
@@ -101,109 +113,61 @@ class _Named:
         return f"{self.package}/{self.folder}/{self.name}"
 
 
-@dataclass(frozen=True, slots=True)
-class MessageDefinition(_Named):
-    """A message, or one part of a service or action: its fields and constants in the order of the file."""
-
-    package: str
-    name: str
-    fields: tuple[Field, ...]
-    constants: tuple[Constant, ...]
-    text: str
-    folder: str = "msg"
-    file: str | None = None
-
-    def parts(self) -> tuple[MessageDefinition, ...]:
-        """The messages in this definition: itself."""
-        return (self,)
-
-
-@dataclass(frozen=True, slots=True)
-class ServiceDefinition(_Named):
-    """A service: its request and its response, as messages `X_Request` and `X_Response`."""
-
-    package: str
-    name: str
-    request: MessageDefinition
-    response: MessageDefinition
-    text: str
-    file: str | None = None
-    folder: str = "srv"
-
-    def parts(self) -> tuple[MessageDefinition, ...]:
-        """Request and response."""
-        return self.request, self.response
-
-
-@dataclass(frozen=True, slots=True)
-class ActionDefinition(_Named):
-    """An action: its goal, result and feedback, as messages `X_Goal`, `X_Result` and `X_Feedback`."""
-
-    package: str
-    name: str
-    goal: MessageDefinition
-    result: MessageDefinition
-    feedback: MessageDefinition
-    text: str
-    file: str | None = None
-    folder: str = "action"
-
-    def parts(self) -> tuple[MessageDefinition, ...]:
-        """Goal, result and feedback."""
-        return self.goal, self.result, self.feedback
-
-
-Definition = MessageDefinition | ServiceDefinition | ActionDefinition
-
-
-def derived_parts(action: ActionDefinition) -> tuple[MessageDefinition, ...]:
-    """The messages in which ROS carries an action: of the services SendGoal and GetResult, then the feedback message.
+def carriers(action: Definition) -> tuple[Definition, ...]:
+    """In what ROS carries an action: the services SendGoal and GetResult, and the feedback message.
 
     Which fields they have follows `rosidl_parser.definition.Action`.
     """
 
-    def part(suffix: str, *fields: Field) -> MessageDefinition:
+    def message(suffix: str, *fields: Field) -> Definition:
         text = "".join(f"{field}\n" for field in fields)
-        return MessageDefinition(action.package, f"{action.name}_{suffix}", fields, (), text, "action", action.file)
+        return Definition(action.package, "action", f"{action.name}_{suffix}", text, action.file, fields)
+
+    def service(suffix: str, *parts: Definition) -> Definition:
+        return Definition(action.package, "action", f"{action.name}_{suffix}", "", action.file, parts=parts)
 
     goal, result, feedback = (
         Field(FieldType(each.name, action.package, folder="action"), each.name.rpartition("_")[2].lower())
-        for each in action.parts()
+        for each in action.parts
     )
     goal_id = Field(FieldType("UUID", "unique_identifier_msgs"), "goal_id")
+    accepted = Field(FieldType("bool"), "accepted")
     stamp = Field(FieldType("Time", "builtin_interfaces"), "stamp")
+    status = Field(FieldType("int8"), "status")
     return (
-        part("SendGoal_Request", goal_id, goal),
-        part("SendGoal_Response", Field(FieldType("bool"), "accepted"), stamp),
-        part("GetResult_Request", goal_id),
-        part("GetResult_Response", Field(FieldType("int8"), "status"), result),
-        part("FeedbackMessage", goal_id, feedback),
+        service(
+            "SendGoal",
+            message("SendGoal_Request", goal_id, goal),
+            message("SendGoal_Response", accepted, stamp),
+        ),
+        service(
+            "GetResult",
+            message("GetResult_Request", goal_id),
+            message("GetResult_Response", status, result),
+        ),
+        message("FeedbackMessage", goal_id, feedback),
     )
-
-
-# -- what can be wrong with a definition --------------------------------------------------------------------------
-# ROS 2 refuses a wrong `.msg` or `.srv` file with a one-line reason (`rosidl_adapter.parser`). The reason is kept word for
-# word, since it is what a learner meets in a real build; around it stand the file, the line, and what to try.
 
 
 class InvalidDefinition(ValueError):
-    """An interface definition that ROS 2 refuses, for a reason in its own words; `hint` says what to try.
+    """An interface definition that ROS 2 refuses, for a reason in the words of `rosidl_adapter.parser`.
+
+    They are kept, since they are what a learner meets in a real build.
 
     Attributes:
         ros_error: name of the exception that ROS raises (`InvalidResourceName`, `NameError`, ...).
+        hint: what to try.
         printed: the line that ROS writes to standard error before it raises, or None.
         interface: full name such as `robot_controller/msg/TurtleStatus`.
         file, line, line_text: where it is, counted from 1, without the line's comment; None where nothing single is to blame.
     """
 
-    ros_error = "ValueError"
-
-    def __init_subclass__(cls, ros_error: str = "") -> None:
-        cls.ros_error = ros_error or cls.__name__
-
-    def __init__(self, reason: str, *, hint: str = "", printed: str | None = None) -> None:
+    def __init__(
+        self, reason: str, ros_error: str = "ValueError", *, hint: str = "", printed: str | None = None
+    ) -> None:
         super().__init__(reason)
         self.reason = reason
+        self.ros_error = ros_error
         self.hint = hint
         self.printed = printed
         self.interface: str | None = None
@@ -236,47 +200,3 @@ class InvalidDefinition(ValueError):
             where += "" if self.line is None else f", line {self.line}, '{self.line_text}'"
             text = f"{where}: {text}"
         return f"{text}. {self.hint}" if self.hint else text
-
-
-class InvalidResourceName(InvalidDefinition):
-    """A package, message or type name that breaks the naming rules."""
-
-
-class InvalidFieldDefinition(InvalidDefinition):
-    """A line that holds a type and nothing else."""
-
-
-class InvalidValue(InvalidDefinition):
-    """A default value or constant that does not suit its type."""
-
-
-class InvalidServiceSpecification(InvalidDefinition):
-    """A `.srv` file without exactly one line `---`."""
-
-
-class InvalidActionSpecification(InvalidDefinition):
-    """An `.action` file without exactly two lines `---`."""
-
-
-class UnknownMessageType(InvalidDefinition):
-    """A field whose type is no known message."""
-
-
-class InvalidMemberName(InvalidDefinition, ros_error="NameError"):
-    """A field or constant name that breaks the naming rules."""
-
-
-class InvalidType(InvalidDefinition, ros_error="TypeError"):
-    """A type that cannot be."""
-
-
-class DuplicateName(InvalidDefinition, ros_error="ValueError"):
-    """Two fields or two constants of one name."""
-
-
-class IndentedLine(InvalidDefinition, ros_error="IndexError"):
-    """A field that does not start at the beginning of its line."""
-
-
-class UnsupportedDefault(InvalidDefinition, ros_error="NotImplementedError"):
-    """A default value for a field that is itself a message."""

@@ -5,12 +5,11 @@ The patterns are those of `rosidl_adapter.parser`; the Python module names those
 
 from __future__ import annotations
 
-import keyword
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from .model import Field, InvalidMemberName, InvalidResourceName, InvalidType
+from .model import InvalidDefinition
 
 LOWER_CASE = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
 MESSAGE = re.compile(r"^[A-Z][A-Za-z0-9]*$")
@@ -21,20 +20,6 @@ INTEGERS = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uin
 FLOATS = ("float32", "float64")
 STRINGS = ("string", "wstring")
 PRIMITIVES = ("bool", "byte", "char", *FLOATS, *INTEGERS, *STRINGS, "duration", "time")
-
-TAKEN = ("wire_copy", "fields_and_field_types")
-"""Attributes of our own in the classes, which fields of these names would replace."""
-
-_CPP = """
-    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
-    const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern false
-    float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private
-    protected public register reinterpret_cast restrict return short signed sizeof static static_assert static_cast
-    struct switch template this thread_local throw true try typedef typeid typename union unsigned using virtual void
-    volatile wchar_t while xor xor_eq
-"""
-CPP_WORDS = frozenset(_CPP.split())
-"""The reserved words of C and of C++17."""
 
 _FROM_OTHER_LANGUAGES = {
     "float": "float32", "double": "float64", "int": "int32", "uint": "uint32", "long": "int64", "short": "int16",
@@ -63,52 +48,19 @@ def without_part(name: str) -> str:
     return stem if underscore + part in PART_SUFFIXES else name
 
 
-def check_package(name: str) -> None:
-    """Raise InvalidResourceName unless the name may name a package."""
-    if not LOWER_CASE.fullmatch(name):
-        raise InvalidResourceName(_broken(name, "package", LOWER_CASE), hint=_lower_case_hint(name))
-
-
-def check_message(name: str) -> None:
-    """Raise InvalidResourceName unless the name may name a message, a service or an action."""
-    if not MESSAGE.fullmatch(without_part(name)):
-        raise InvalidResourceName(_broken(name, "message", MESSAGE), hint=_type_hint(name))
-
-
-def check_field(name: str) -> None:
-    """Raise InvalidMemberName unless the name may name a field."""
-    if not LOWER_CASE.fullmatch(name):
-        raise InvalidMemberName(_broken(name, "field", LOWER_CASE), hint=_lower_case_hint(name))
-
-
-def check_constant(name: str) -> None:
-    """Raise InvalidMemberName unless the name may name a constant."""
-    if not CONSTANT.fullmatch(name):
+def check(what: str, name: str) -> None:
+    """Raise InvalidDefinition unless this may be the name of a package, message (service, action), field or constant."""
+    pattern = {"message": MESSAGE, "constant": CONSTANT}.get(what, LOWER_CASE)
+    if pattern.fullmatch(without_part(name) if what == "message" else name):
+        return
+    reason = f"'{name}' is an invalid {what} name. It should have the pattern '{pattern.pattern}'"
+    if what == "message":
+        hint = _type_hint(name)
+    elif what == "constant":
         hint = "Constants are in capitals; a default value is written without '='"
-        raise InvalidMemberName(_broken(name, "constant", CONSTANT), hint=hint)
-
-
-def check_buildable_field(field: Field) -> None:
-    """Raise InvalidDefinition for a field that no build gets through."""
-    if field.type.base in ("time", "duration"):
-        better = f"builtin_interfaces/{field.type.base.capitalize()}"
-        raise InvalidType(f"the type '{field.type.base}' belongs to ROS 1", hint=f"Write '{better} {field.name}'")
-    if keyword.iskeyword(field.name):
-        raise InvalidMemberName(
-            f"Member name '{field.name}' is a reserved keyword in Python and is not supported at the moment."
-            " Please use a different name"
-        )
-    if field.name in CPP_WORDS:
-        reason = f"Member name '{field.name}' is a keyword of C++, in which ROS 2 also generates code"
-        raise InvalidMemberName(reason, hint=f"Please use a different name, such as '{field.name}_value'")
-    if field.name in TAKEN:
-        raise InvalidMemberName(f"the field name '{field.name}' is taken", hint="Please use a different name")
-
-
-def check_class_name(name: str) -> None:
-    """Raise InvalidResourceName for a message that Python could not have a class of."""
-    if keyword.iskeyword(name):
-        raise InvalidResourceName(f"'{name}' is a keyword of Python, which cannot be the name of a class")
+    else:
+        hint = _lower_case_hint(name)
+    raise InvalidDefinition(reason, "InvalidResourceName" if what in ("package", "message") else "NameError", hint=hint)
 
 
 def is_hidden(name: str) -> bool:
@@ -160,10 +112,6 @@ def _slips(one: str, two: str) -> int:
                 least = min(least, last[j - 2] + 1)
             row.append(least)
     return row[-1]
-
-
-def _broken(name: str, what: str, pattern: re.Pattern[str]) -> str:
-    return f"'{name}' is an invalid {what} name. It should have the pattern '{pattern.pattern}'"
 
 
 def _lower_case_hint(name: str) -> str:

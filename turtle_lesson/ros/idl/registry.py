@@ -19,9 +19,9 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from . import names
-from .definition import parse_action, parse_message, parse_service, with_comments
+from .definition import PARTS, parse, with_comments
 from .generator import make_module
-from .model import Definition, FieldType, InvalidDefinition, UnknownMessageType
+from .model import Definition, FieldType, InvalidDefinition
 
 if TYPE_CHECKING:
     from importlib.abc import Loader
@@ -29,7 +29,7 @@ else:
     Loader = object  # importing importlib.abc would take longer than all the rest
 
 SHARE = Path(__file__).with_name("share")
-FOLDERS = ("msg", "srv", "action")
+FOLDERS = tuple(PARTS)
 ALIASES = {"turtlesim_msgs": "turtlesim"}
 """Built-in packages that newer releases know by another name (turtlesim's interfaces since Kilted): the same classes."""
 
@@ -45,12 +45,6 @@ LONGEST = 100_000
 
 DEEPEST = 50
 """How many messages may lie within each other; Python's own stack would end at some 100."""
-
-PARSERS: dict[str, Callable[[str, str, str, str], Definition]] = {
-    "msg": parse_message,
-    "srv": parse_service,
-    "action": parse_action,
-}
 
 
 @dataclass(eq=False)
@@ -106,7 +100,7 @@ class Package:
     def definition(self, interface: str) -> Definition:
         """The definition of `msg/Twist`, parsed."""
         folder, _, name = interface.partition("/")
-        return PARSERS[folder](self.name, name, self.text(interface), str(self.path(interface)))
+        return parse(folder, self.name, name, self.text(interface), str(self.path(interface)))
 
     def advice(self, interface: str) -> str:
         """What to try where the package lacks an interface."""
@@ -132,7 +126,7 @@ class Registry:
 
         `files` limits it to relative paths such as `msg/TurtleStatus.msg`; None stands for all files in the folder.
         """
-        names.check_package(package)
+        names.check("package", package)
         with self._lock:
             self._forget(package)
             chosen = None if files is None else tuple(Path(each).as_posix() for each in files)
@@ -205,14 +199,14 @@ class Registry:
             return owner.modules[whole]
 
     def resolve(self, type_: FieldType) -> Any:
-        """The class of a field's messages; UnknownMessageType where there is none."""
+        """The class of a field's messages; InvalidDefinition where there is none."""
         name = f"{type_.package}/{type_.folder}/{type_.base}"
         try:
             message_class = self.get(name)
         except LookupError as error:
             hint = self._where_is(type_.base) or error.args[0]
             whole = f"{type_.package}/{type_.base}"
-            raise UnknownMessageType(f"the type '{whole}' is unknown", hint=hint) from None
+            raise InvalidDefinition(f"the type '{whole}' is unknown", "UnknownMessageType", hint=hint) from None
         if self._in_progress:
             self._uses[self._in_progress[-1]] |= self._uses[name]
         return message_class
@@ -222,9 +216,9 @@ class Registry:
         name = definition.full_name
         if name in self._in_progress:
             circle = " -> ".join([*self._in_progress, name])
-            raise UnknownMessageType(f"a message cannot contain itself: {circle}")
+            raise InvalidDefinition(f"a message cannot contain itself: {circle}", "UnknownMessageType")
         if len(self._in_progress) >= DEEPEST:
-            raise UnknownMessageType(f"messages are nested more than {DEEPEST} deep")
+            raise InvalidDefinition(f"messages are nested more than {DEEPEST} deep", "UnknownMessageType")
         self._in_progress.append(name)
         self._uses[name] = {owner.name}
         try:

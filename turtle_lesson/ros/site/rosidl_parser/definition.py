@@ -4,7 +4,6 @@
 
 from turtle_lesson.ros.idl.message import (
     AbstractGenericString,
-    AbstractNestableType,
     AbstractNestedType,
     AbstractSequence,
     AbstractString,
@@ -15,7 +14,6 @@ from turtle_lesson.ros.idl.message import (
     BoundedSequence,
     BoundedString,
     BoundedWString,
-    NamedType,
     NamespacedType,
     UnboundedSequence,
     UnboundedString,
