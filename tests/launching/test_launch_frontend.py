@@ -234,8 +234,6 @@ def test_the_sources_have_their_own_names(tmp_path: Path, capsys: pytest.Capture
         ("$(or $(var yes) false)", "true"),
         ("$(equals $(var x) 1.0)", "true"),
         ("$(not-equals a b)", "true"),
-        ("$(if $(var yes) this that)", "this"),
-        ("$(anon robot) $(anon robot)", "robot_1 robot_1"),
         ("$(find-pkg-share robot_controller)/launch", "install/robot_controller/share/robot_controller/launch"),
         ("$(find-pkg-prefix robot_controller)", "install/robot_controller"),
         ("$(exec-in-pkg navigator robot_controller)", "install/robot_controller/lib/robot_controller/navigator"),
@@ -264,16 +262,13 @@ def test_groups_keep_their_settings_to_themselves(tmp_path: Path, capsys: pytest
         <let name="a" value="outer"/>
         <group><let name="a" value="inner"/><log message="$(var a)"/></group>
         <log message="$(var a)"/>
-        <group forwarding="false"><keep name="b" value="kept"/><log message="$(var a none) $(var b)"/></group>
         <group scoped="false"><let name="a" value="leaked"/></group>
         <log message="$(var a)"/>
         <set_env name="COLOUR" value="blue"/><append_env name="COLOUR" value="ish" separator="-"/>
         <log message="$(env COLOUR)"/>
-        <unset_env name="COLOUR"/><log message="$(env COLOUR none)"/>
-        <unset name="a"/><log message="$(var a gone)"/>
         """,
     )
-    said = ["inner", "outer", "none kept", "leaked", "blue-ish", "none", "gone"]
+    said = ["inner", "outer", "leaked", "blue-ish"]
     assert screen(capsys) == [f"[INFO] [launch.user]: {word}" for word in said]
 
 
@@ -375,9 +370,9 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
             "",
         ),
         (
-            f'{NODE} respawn_delay="-1"/>',
-            "ValueError: Attribute respawn_delay of Entity node expected to be a non-negative value but got `-1.0`",
-            "",
+            '<unset_env name="x"/>',
+            "RuntimeError: Unrecognized entity of the type: unset_env",
+            "It is not available here: put what belongs together into a group.",
         ),
         (
             '<group scoped="maybe"/>',
@@ -514,18 +509,15 @@ def test_a_mistake_that_shows_while_it_runs_has_its_line_too(tmp_path: Path) -> 
 
 
 def test_an_action_of_ones_own_can_have_a_tag(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from launch import frontend
     from launch.actions import LogInfo
-    from launch.frontend import expose, expose_action
 
-    @expose_action("shout")
+    @frontend.expose_action("shout")
     class Shout(LogInfo):
-        @classmethod
-        def parse(cls, entity, parser):  # type: ignore[no-untyped-def]
-            _, kwargs = super().parse(entity, parser)
-            return cls, kwargs
+        """Prints a line."""
 
     try:
         launched(tmp_path, "<shout message='hello'/>")
     finally:
-        del expose.action_parse_methods["shout"]
+        del frontend._actions["shout"]
     assert screen(capsys) == ["[INFO] [launch.user]: hello"]

@@ -247,7 +247,7 @@ def test_environment_variables_reach_the_programs_and_not_the_notebook(
     monkeypatch.setenv("SHAPE", "round")
     actions = (
         node("surroundings", name="'before'")
-        + "        SetEnvironmentVariable('COLOUR', 'blue'), UnsetEnvironmentVariable('SHAPE'),\n"
+        + "        SetEnvironmentVariable('COLOUR', 'blue'), SetEnvironmentVariable('SHAPE', 'flat'),\n"
         + "        SetEnvironmentVariable('RCUTILS_CONSOLE_OUTPUT_FORMAT', '{name}: {message}'),\n"
         + node("surroundings", name="'after'")
         + node("surroundings", name="'more'", additional_env="{'COLOUR': ['gr', 'een']}")
@@ -256,7 +256,7 @@ def test_environment_variables_reach_the_programs_and_not_the_notebook(
     )
     head = HEAD.replace(
         "def generate",
-        "from launch.actions import LogInfo, SetEnvironmentVariable, UnsetEnvironmentVariable\n"
+        "from launch.actions import LogInfo, SetEnvironmentVariable\n"
         "from launch.substitutions import EnvironmentVariable\n\ndef generate",
     )
     start(world, tmp_path, actions, head)
@@ -265,8 +265,8 @@ def test_environment_variables_reach_the_programs_and_not_the_notebook(
     assert "[INFO] [launch.user]: blue" in lines
     assert [line for line in lines if "sees" in line] == [
         "[surroundings-1] [INFO] [time] [before]: sees red round",
-        "[surroundings-2] after: sees blue None",
-        "[surroundings-3] more: sees green None",
+        "[surroundings-2] after: sees blue flat",
+        "[surroundings-3] more: sees green flat",
         "[surroundings-4] [INFO] [time] [alone]: sees black None",
     ]
     assert os.environ["COLOUR"] == "red"

@@ -22,10 +22,11 @@ from pathlib import Path, PurePath
 from typing import Any, NoReturn
 
 from launch import LaunchDescription, LaunchService
+from launch._entities import explained
 from launch.actions import IncludeLaunchDescription
 from launch.actions._processes import Program
 from launch.launch_description_sources import AnyLaunchDescriptionSource
-from launch.substitutions import CommandFailure
+from launch.substitutions import SubstitutionFailure
 
 from .. import hooks
 from ..ament.index import current_packages, why_not_here
@@ -183,15 +184,15 @@ _SMALL: dict[str, Callable[[Sequence[str]], Any]] = {
 def output_of(text: str) -> str:
     """What a command prints.
 
-    Raises CommandFailure if it fails, or the simulation does not have it, and NotHereError if it needs a Python package
+    Raises SubstitutionFailure if it fails, or the simulation does not have it, and NotHereError if it needs a Python package
     that is not installed.
     """
     try:
         words = shlex.split(text)
     except ValueError as error:
-        raise CommandFailure(str(error)) from None
+        raise SubstitutionFailure(str(error)) from None
     if not words:
-        raise CommandFailure("there is no command")
+        raise SubstitutionFailure("there is no command")
     name = PurePath(words[0]).name
     if name == "echo":
         return " ".join(words[1:]) + "\n"
@@ -199,10 +200,8 @@ def output_of(text: str) -> str:
         return "".join(_read(word) for word in words[1:])
     if name == "xacro":
         return _xacro(words[1:])
-    raise CommandFailure(
-        f"'{name}' is a program of the operating system, which launch files cannot run here",
-        "Command(…) can run cat FILE, echo TEXT and xacro FILE.",
-    )
+    failure = SubstitutionFailure(f"'{name}' is a program of the operating system, which launch files cannot run here")
+    raise explained(failure, "Command(…) can run cat FILE, echo TEXT and xacro FILE.")
 
 
 def _read(name: str) -> str:
@@ -210,14 +209,14 @@ def _read(name: str) -> str:
         return Path(name).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise CommandFailure(f"cat: {name}: {reason}") from None
+        raise SubstitutionFailure(f"cat: {name}: {reason}") from None
 
 
 def _xacro(words: Sequence[str]) -> str:
     """What xacro makes of a robot description. One without macros stays as it is; for others the package xacro is needed."""
     files = [word for word in words if not word.startswith("-") and ":=" not in word]
     if len(files) != 1:
-        raise CommandFailure("xacro needs the name of one file")
+        raise SubstitutionFailure("xacro needs the name of one file")
     text = _read(files[0])
     if not re.search(r"<xacro:|\$\{|\$\(", text):
         return text
@@ -233,7 +232,7 @@ def _xacro(words: Sequence[str]) -> str:
     except SystemExit as end:
         if end.code:
             said = re.sub(r"\x1b\[[0-9;]*m", "", errors.getvalue()).strip()  # without colours
-            raise CommandFailure(said or f"xacro: exit code {end.code}") from None
+            raise SubstitutionFailure(said or f"xacro: exit code {end.code}") from None
     finally:
         sys.argv = argv
     return out.getvalue()

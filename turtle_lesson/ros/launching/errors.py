@@ -173,7 +173,7 @@ def _unexpected_keyword(name: str) -> str:
     import launch.actions
     import launch_ros.actions
 
-    classes = [launch_ros.actions.Node, launch.actions.ExecuteProcess, launch.actions.ExecuteLocal]
+    classes = [launch_ros.actions.Node, launch.actions.ExecuteProcess]
     known = {argument for kind in classes for argument in inspect.signature(kind).parameters}
     return did_you_mean(name, sorted(known - {"kwargs", "cmd"}))
 

@@ -10,22 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 from launch import Event
 from launch.events import Shutdown
-from launch.events.process import (
-    ProcessExited,
-    ProcessIO,
-    ProcessStarted,
-    ProcessStderr,
-    ProcessStdout,
-    ShutdownProcess,
-    SignalProcess,
-)
+from launch.events.process import ProcessExited, ProcessIO, ProcessStarted
 from launch.utilities import perform_substitutions
 
 from ..ament.package import PythonProgram
 from ..sim.strand import running_strand
 
 if TYPE_CHECKING:
-    from launch.actions import ExecuteLocal
+    from launch.actions import ExecuteProcess
 
     from ..runtime.world import World
     from ..sim.process import Process
@@ -86,11 +78,11 @@ RESPAWN_PAUSE = 0.25
 class RunningProcess:
     """What launch knows about the process of one action."""
 
-    def __init__(self, launch: Processes, action: ExecuteLocal) -> None:
+    def __init__(self, launch: Processes, action: ExecuteProcess) -> None:
         self._launch = launch
         self._service = launch.service
         self.action = action
-        self.name = action.process_description.final_name
+        self.name = action.name
         self.process: Process | None = None
         self._retries = 0
         self._terminated = False
@@ -127,7 +119,7 @@ class RunningProcess:
             return
         program = self.action._program
         assert program is not None and self.action.process_details is not None
-        streams = {"stdout": self._writer("stdout", ProcessStdout), "stderr": self._writer("stderr", ProcessStderr)}
+        streams = {"stdout": self._writer("stdout", 1), "stderr": self._writer("stderr", 2)}
 
         def on_exit(process: Process) -> None:
             for stream in streams.values():
@@ -147,14 +139,14 @@ class RunningProcess:
         self.say("INFO", f"process started with pid [{self.process.pid}]")
         self._emit(ProcessStarted)
 
-    def _writer(self, stream: str, kind: type[ProcessIO]) -> LineWriter:
+    def _writer(self, stream: str, fd: int) -> LineWriter:
         shown = stream in self.action._on_screen
 
         def on_line(line: str) -> None:
             if shown:
                 self._service.line(self.action.output_format.format(line=line, this=self.action))
 
-        return LineWriter(on_line, lambda text: self._emit(kind, text=text.encode()))
+        return LineWriter(on_line, lambda text: self._emit(ProcessIO, text=text.encode(), fd=fd))
 
     def _emit(self, kind: type[Event], **more: Any) -> None:
         """Let an event about it happen, if a handler waits for it."""
@@ -235,11 +227,11 @@ class Processes:
         """Those that run."""
         return [process for process in self._all if process.alive]
 
-    def add(self, action: ExecuteLocal) -> None:
+    def add(self, action: ExecuteProcess) -> None:
         """Start an action's process."""
         if self.service.context.is_shutdown:
             return
-        if action.process_description.cwd:
+        if action.cwd:
             self.service.warn_once("here all programs work in the notebook's folder, whatever cwd= says")
         if action.prefix_left_out:
             self.service.warn_once(f"{action.prefix_left_out} is left out: programs run here without a prefix")
@@ -268,14 +260,6 @@ class Processes:
         """What launch itself does about an event."""
         if isinstance(event, Shutdown):
             self._end(self.alive, said=not event.due_to_sigint)
-        elif isinstance(event, ShutdownProcess | SignalProcess):
-            meant = [process for process in self.alive if event.process_matcher(process.action)]
-            if isinstance(event, SignalProcess):
-                for process in meant:
-                    process.announce(event.signal_name)
-                    process.signal(event.signal_name)
-            else:
-                self._end(meant, said=True)
 
     def _end(self, processes: list[RunningProcess], *, said: bool) -> None:
         """Interrupt processes, and see to it that they end. Their last words come after all their output."""

@@ -32,7 +32,7 @@ from .errors import LaunchError, as_launch_error, learners_cause
 from .processes import Processes, RosHelper
 
 if TYPE_CHECKING:
-    from launch.actions import ExecuteLocal
+    from launch.actions import ExecuteProcess
 
     from ..runtime.world import World
     from ..sim.process import Process
@@ -49,7 +49,7 @@ class LaunchService:
         self.processes = Processes(self)
         self.numbers = count(1)
         """What is after the dash in `navigator-1`."""
-        self._waiting: list[ExecuteLocal] = []
+        self._waiting: list[ExecuteProcess] = []
         self._timers = 0
         self._settling = False
         self._helper: RosHelper | None = None
@@ -64,7 +64,7 @@ class LaunchService:
         """Whether a process runs, or something is still to come."""
         return bool(self.processes.alive) or (self._timers > 0 and not self.context.is_shutdown)
 
-    def start_process(self, action: ExecuteLocal) -> None:
+    def start_process(self, action: ExecuteProcess) -> None:
         """Have an action's process started as soon as what is being walked through is done."""
         self._waiting.append(action)
         self.settle_soon()
@@ -118,7 +118,7 @@ class LaunchService:
                 # what waits for the end, say, of a program that is left out
                 for handler in self.context._event_handlers:
                     target: Any = getattr(handler, "_target", None)
-                    emits = all(isinstance(each, EmitEvent) for each in handler.describe()[1])
+                    emits = all(isinstance(each, EmitEvent) for each in handler.entities)
                     if target in self._left_out and not emits:
                         what = f"{type(handler).__name__} of {self._left_out[target]}"
                         self.warn_once(f"{what} is left out, too, with what it starts")

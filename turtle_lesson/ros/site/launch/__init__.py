@@ -17,7 +17,7 @@ from . import (
     substitutions,
     utilities,
 )
-from ._context import BaseEventHandler, Event, EventHandler, LaunchContext
+from ._context import Event, EventHandler, LaunchContext
 from ._entities import (
     Action,
     Condition,
@@ -26,7 +26,6 @@ from ._entities import (
     SomeActionsType,
     SomeEntitiesType,
     SomeSubstitutionsType,
-    SomeSubstitutionsType_types_tuple,
     Substitution,
 )
 from ._package import complete_package
@@ -36,7 +35,6 @@ from .launch_service import LaunchService
 
 __all__ = [
     "Action",
-    "BaseEventHandler",
     "Condition",
     "Event",
     "EventHandler",
@@ -49,7 +47,6 @@ __all__ = [
     "SomeActionsType",
     "SomeEntitiesType",
     "SomeSubstitutionsType",
-    "SomeSubstitutionsType_types_tuple",
     "Substitution",
     "actions",
     "conditions",

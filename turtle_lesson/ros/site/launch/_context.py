@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from ._entities import LaunchDescriptionEntity, SomeEntitiesType, Substitution
@@ -14,63 +15,36 @@ if TYPE_CHECKING:
 
 
 class Event:
-    """Base of all events; `name` is that of its class."""
-
-    name = "launch.Event"
-
-    def __init_subclass__(cls) -> None:
-        if "name" not in vars(cls):
-            cls.name = f"{cls.__module__}.{cls.__name__}"
+    """Base of all events."""
 
 
 Reaction = SomeEntitiesType | Callable[[Any, "LaunchContext"], SomeEntitiesType | None] | None
 
 
-class BaseEventHandler:
-    """Knows which events it is for. `handle_once` handlers are forgotten after the first."""
+class EventHandler:
+    """Gives entities when its event happens; launch's own handlers may instead call a function that gives them.
 
-    def __init__(self, *, matcher: Callable[[Event], bool], handle_once: bool = False) -> None:
+    One with `handle_once` is forgotten after the first event.
+    """
+
+    def __init__(
+        self, *, matcher: Callable[[Event], bool], entities: Reaction = None, handle_once: bool = False
+    ) -> None:
         self.__matcher = matcher
         self.handle_once = handle_once
+        self.__function = entities if callable(entities) else None
+        self.entities: list[LaunchDescriptionEntity] = [] if callable(entities) else as_entities(entities)
+        """What is visited when the event happens, as far as it is known."""
 
     def matches(self, event: Event) -> bool:
         """Whether it is for this event."""
         return self.__matcher(event)
 
-    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """In words, and the entities that it gives as far as they are known."""
-        return f"{type(self).__name__}()", []
-
     def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """React to the event; return entities to visit, or None."""
+        """Call the function, or give the entities."""
         context.extend_locals({"event": event})
         if self.handle_once:
             context.unregister_event_handler(self)
-        return None
-
-
-class EventHandler(BaseEventHandler):
-    """Gives entities when its event happens; launch's own handlers may instead call a function that gives them."""
-
-    def __init__(
-        self, *, matcher: Callable[[Event], bool], entities: Reaction = None, handle_once: bool = False
-    ) -> None:
-        super().__init__(matcher=matcher, handle_once=handle_once)
-        self.__function = entities if callable(entities) else None
-        self.__entities = [] if callable(entities) else as_entities(entities)
-
-    @property
-    def entities(self) -> list[LaunchDescriptionEntity]:
-        """What is visited when the event happens, as far as it is known."""
-        return self.__entities
-
-    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """In words, and the entities as far as they are known."""
-        return f"{type(self).__name__}()", self.entities
-
-    def handle(self, event: Event, context: LaunchContext) -> SomeEntitiesType | None:
-        """Call the function, or give the entities."""
-        super().handle(event, context)
         return self.entities if self.__function is None else self.__function(event, context)
 
 
@@ -85,20 +59,6 @@ def as_entities(entities: SomeEntitiesType | None) -> list[LaunchDescriptionEnti
     raise TypeError(f"expected an action or a list of actions, got {entities!r}")
 
 
-class Locals:
-    """Read-only names with values, as `context.locals.event`."""
-
-    def __init__(self, values: dict[str, Any]) -> None:
-        self.__dict__.update(values)
-
-    def __getattr__(self, name: str) -> Any:
-        known = ", ".join(self.__dict__)
-        raise AttributeError(f"context.locals does not contain attribute '{name}', it contains: [{known}]")
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"can't set attribute '{name}', locals are read-only")
-
-
 class LaunchContext:
     """The state of one launch: its configurations, and the environment variables as it sees them."""
 
@@ -106,59 +66,49 @@ class LaunchContext:
         self.argv = list(argv or [])
         self.noninteractive = noninteractive
         self.is_shutdown = False
-        self.asyncio_loop = None
         self.launch_configurations: dict[str, Any] = {}
         self.environment = dict(os.environ)
-        self._environment_at_start = dict(os.environ)
         self._scopes: defaultdict[str, list[dict[str, Any]]] = defaultdict(list)
         self._host: LaunchService | None = None
         self._configurations_read: set[str] = set()
         self._output_override: str | None = None
         self._include_depth = 0
         self._event_queue: deque[Event] = deque()
-        self._event_handlers: deque[BaseEventHandler] = deque()
-        self._globals: dict[str, Any] = {}
+        self._event_handlers: deque[EventHandler] = deque()
         self._locals: dict[str, Any] = {}
 
     @property
-    def locals(self) -> Locals:
+    def locals(self) -> SimpleNamespace:
         """Names that handlers and includes set, such as `event` and `current_launch_file_path`."""
-        return Locals(self.get_locals_as_dict())
+        return SimpleNamespace(**self._locals)
 
     def get_locals_as_dict(self) -> dict[str, Any]:
         """The same as a dictionary."""
-        return {**self._globals, **self._locals}
-
-    def extend_globals(self, extensions: dict[str, Any]) -> None:
-        """Set names for good."""
-        self._globals.update(extensions)
+        return dict(self._locals)
 
     def extend_locals(self, extensions: dict[str, Any]) -> None:
         """Set names until the current handler or include is done."""
         self._locals.update(extensions)
 
-    def _push(self, name: str) -> None:
+    def _push(self, *names: str) -> None:
         """Begin a scope of `launch_configurations`, `environment` or `_locals`."""
-        self._scopes[name].append(dict(getattr(self, name)))
+        for name in names:
+            self._scopes[name].append(dict(getattr(self, name)))
 
-    def _pop(self, name: str) -> None:
+    def _pop(self, *names: str) -> None:
         """End the scope: forget what was set in it."""
-        if not self._scopes[name]:
-            raise RuntimeError(f"{name} stack unexpectedly empty")
-        setattr(self, name, self._scopes[name].pop())
+        for name in names:
+            setattr(self, name, self._scopes[name].pop())
 
     def would_handle_event(self, event: Event) -> bool:
         """Whether anybody waits for such an event."""
         return any(handler.matches(event) for handler in self._event_handlers)
 
-    def register_event_handler(self, event_handler: BaseEventHandler, append: bool = False) -> None:
-        """Have events handled; a later handler goes first, unless `append`."""
-        if append:
-            self._event_handlers.append(event_handler)
-        else:
-            self._event_handlers.appendleft(event_handler)
+    def register_event_handler(self, event_handler: EventHandler) -> None:
+        """Have events handled; a later handler goes first."""
+        self._event_handlers.appendleft(event_handler)
 
-    def unregister_event_handler(self, event_handler: BaseEventHandler) -> None:
+    def unregister_event_handler(self, event_handler: EventHandler) -> None:
         """Take an event handler out."""
         self._event_handlers.remove(event_handler)
 
@@ -167,10 +117,6 @@ class LaunchContext:
         self._event_queue.append(event)
         if self._host is not None:
             self._host.settle_soon()
-
-    async def emit_event(self, event: Event) -> None:
-        """The same for a coroutine."""
-        self.emit_event_sync(event)
 
     def perform_substitution(self, substitution: Substitution) -> str:
         """The substitution's text in this context."""

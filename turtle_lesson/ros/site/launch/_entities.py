@@ -8,21 +8,32 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
 from turtle_lesson.ros.sim.errors import is_ours
 
-from . import logging
-
 if TYPE_CHECKING:
     from ._context import LaunchContext
     from .actions import DeclareLaunchArgument, IncludeLaunchDescription
-    from .frontend import Entity, Parser
+    from .frontend import Entity
 
     ArgumentWithIncludes = tuple[DeclareLaunchArgument, list[IncludeLaunchDescription] | None]
 
 
+SomeSubstitutionsType = Union[str, "Substitution", Iterable[Union[str, "Substitution"]]]
+SomeActionsType = Union["Action", Iterable["Action"]]
+SomeEntitiesType = Union["LaunchDescriptionEntity", Iterable["LaunchDescriptionEntity"]]
+
+
 class Substitution:
-    """Base of everything that stands for text in a launch description."""
+    """Base of everything that stands for text in a launch description.
+
+    Those here are dataclasses, whose fields become lists of substitutions.
+    """
 
     _shown = ""
-    """How one is shown, with the names of its attributes in braces."""
+    """How one is shown, with the names of its fields in braces; if empty, by its class and all fields."""
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if value is not None:
+                setattr(self, name, normalize_to_list_of_substitutions(value))
 
     def perform(self, context: LaunchContext) -> str:
         """The text, in this context."""
@@ -34,7 +45,7 @@ class Substitution:
     def describe(self) -> str:
         """How `--show-args` shows it."""
         values = {name: described(value) for name, value in vars(self).items() if isinstance(value, list)}
-        return self._shown.format(**values) if self._shown else f"{type(self).__name__}()"
+        return self._shown.format(**values) if self._shown else f"{type(self).__name__}({', '.join(values.values())})"
 
 
 def described(pieces: Iterable[Substitution]) -> str:
@@ -48,8 +59,7 @@ class TextSubstitution(Substitution):
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
             error = TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
-            error.add_note(f"Write it as text: TextSubstitution(text='{text}')")
-            raise error
+            raise explained(error, f"Write it as text: TextSubstitution(text='{text}')")
         self.text = text
 
     def describe(self) -> str:
@@ -61,10 +71,27 @@ class TextSubstitution(Substitution):
         return self.text
 
 
-SomeSubstitutionsType = str | Substitution | Iterable[str | Substitution]
-SomeSubstitutionsType_types_tuple = (str, Substitution, Iterable)
-SomeActionsType = Union["Action", Iterable["Action"]]
-SomeEntitiesType = Union["LaunchDescriptionEntity", Iterable["LaunchDescriptionEntity"]]
+def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
+    """A list of substitutions, whether text, one substitution, or several of both were given."""
+    found = []
+    for part in [subs] if isinstance(subs, str | Substitution) or not isinstance(subs, Iterable) else subs:
+        if not isinstance(part, str | Substitution):
+            raise TypeError(
+                f"Failed to normalize given item of type '{type(part)}', when only "
+                "'str' or 'launch.Substitution' were expected."
+            )
+        found.append(TextSubstitution(text=part) if isinstance(part, str) else part)
+    return found
+
+
+def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
+    """The texts of all, joined."""
+    return "".join([part.perform(context) for part in subs])
+
+
+def text_of(context: LaunchContext, given: SomeSubstitutionsType) -> str:
+    """The text of whatever can stand for text."""
+    return perform_substitutions(context, normalize_to_list_of_substitutions(given))
 
 
 class LaunchDescriptionEntity:
@@ -74,16 +101,12 @@ class LaunchDescriptionEntity:
         """Do what it stands for; return further entities, or None."""
         return None
 
-    def describe(self) -> str:
-        """A short text that names it."""
-        return repr(self)
-
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """The entities that it will give, as far as that is known beforehand."""
         return []
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """The entities that it may give, each group with the condition in words."""
+    def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """The entities that it may give."""
         return []
 
 
@@ -95,7 +118,7 @@ class Condition:
 
     def evaluate(self, context: LaunchContext) -> bool:
         """Whether it holds now."""
-        return self._predicate(context) if self._predicate is not None else True
+        return self._predicate is None or self._predicate(context)
 
 
 Place = tuple[str, int]
@@ -127,41 +150,15 @@ class Action(LaunchDescriptionEntity):
     """Base of all actions. A subclass says in `execute` what it does."""
 
     _completes_later = False
-    _tag: ClassVar[Mapping[str, Callable[[Entity, Parser], Any]]] = {}
-    """How each argument of the constructor is read from a tag of an XML or YAML file; `_tags.py` has the functions."""
+    _tag: ClassVar[Mapping[str, Callable[[Entity], Any]]] = {}
+    """How each argument of the constructor is read from a tag of an XML or YAML file; `frontend.py` has the functions."""
 
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.condition = condition
         self._written_at = written_at()
 
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] = ()) -> tuple[type, dict[str, Any]]:
-        """The class and its arguments, without those in `ignore`, for a tag of an XML or YAML file.
-
-        Raises RuntimeError if it has both `if` and `unless`; and whatever is wrong with its attributes.
-        """
-        from .conditions import IfCondition, UnlessCondition
-
-        kinds = {"if": IfCondition, "unless": UnlessCondition}
-        given = [
-            (kind, text) for name, kind in kinds.items() if (text := entity.get_attr(name, optional=True)) is not None
-        ]
-        if len(given) == 2:
-            raise RuntimeError("if and unless conditions can't be used simultaneously")
-        kwargs: dict[str, Any] = {}
-        for kind, text in given:
-            kwargs["condition"] = kind(parser.parse_substitution(text))
-        for name, read in cls._tag.items():
-            if name not in (ignore or ()) and (value := read(entity, parser)) is not None:
-                kwargs[name] = value
-        return cls, kwargs
-
     def __repr__(self) -> str:
         return f"<{type(self).__module__}.{type(self).__qualname__} object>"
-
-    def describe(self) -> str:
-        """A short text that names it."""
-        return f"{type(self).__name__}()"
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Carry it out if its condition holds."""
@@ -188,19 +185,8 @@ class Action(LaunchDescriptionEntity):
 class LaunchDescription(LaunchDescriptionEntity):
     """What a launch file's `generate_launch_description()` returns: entities, in order."""
 
-    def __init__(
-        self,
-        initial_entities: Iterable[LaunchDescriptionEntity] | None = None,
-        *,
-        deprecated_reason: str | None = None,
-    ) -> None:
-        self.entities = list(initial_entities) if initial_entities is not None else []
-        self.deprecated_reason = deprecated_reason
-
-    @property
-    def deprecated(self) -> bool:
-        """Whether its author says that it should not be used any more."""
-        return self.deprecated_reason is not None
+    def __init__(self, initial_entities: Iterable[LaunchDescriptionEntity] | None = None) -> None:
+        self.entities = list(initial_entities or [])
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
         """Append an entity."""
@@ -216,10 +202,6 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Give its entities."""
-        if self.deprecated:
-            path = context.get_locals_as_dict().get("current_launch_file_path")
-            what = f"launch file [{path}] is deprecated" if path else "deprecated launch description"
-            logging.get_logger().warning(f"{what}: {self.deprecated_reason}")
         return self.entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
@@ -243,11 +225,9 @@ def _collect(
     found: dict[str, ArgumentWithIncludes],
 ) -> None:
     """Add the arguments declared in `entities` to `found`; the first declaration of a name counts."""
-    from .actions import DeclareLaunchArgument, IncludeLaunchDescription, ResetLaunchConfigurations
+    from .actions import DeclareLaunchArgument, IncludeLaunchDescription
 
     for entity in entities:
-        if isinstance(entity, ResetLaunchConfigurations):
-            return  # from here on, arguments given from outside are not seen any more
         if isinstance(entity, DeclareLaunchArgument) and entity.name not in found:
             entity._conditionally_included = conditional or entity.condition is not None
             found[entity.name] = (entity, includes)
@@ -259,5 +239,4 @@ def _collect(
                 continue  # a file that includes itself takes no other arguments within itself
             inner = [*(includes or []), entity]
         _collect(below, conditional, inner, found)
-        for _, group in entity.describe_conditional_sub_entities():
-            _collect(group, True, inner, found)
+        _collect(entity.describe_conditional_sub_entities(), True, inner, found)

@@ -12,7 +12,6 @@ from .events.process import ProcessExited, ProcessIO, ProcessStarted
 
 __all__ = [
     "EventHandler",
-    "OnActionEventBase",
     "OnExecutionComplete",
     "OnProcessExit",
     "OnProcessIO",
@@ -24,55 +23,55 @@ __all__ = [
 Target = Action | Callable[[Any], bool] | None
 
 
-class OnActionEventBase(EventHandler):
+class _OnActionEvent(EventHandler):
     """Reacts to one kind of event of one action, of those that a function picks, or of all."""
 
-    def __init__(
-        self, *, action_matcher: Target, on_event: Reaction, target_event_cls: type[Event], **kwargs: Any
-    ) -> None:
-        if not (action_matcher is None or callable(action_matcher) or isinstance(action_matcher, Action)):
+    def __init__(self, target: Target, reaction: Reaction, event_class: type[Event], **kwargs: Any) -> None:
+        if not (target is None or callable(target) or isinstance(target, Action)):
             what = f"{type(self).__name__} requires an 'Action' or a callable as its target"
-            raise TypeError(f"{what}, got {action_matcher!r}; write target_action=the_node")
-        super().__init__(matcher=self._is_for, entities=on_event, **kwargs)
-        self._target = action_matcher
-        self._event_class = target_event_cls
+            raise TypeError(f"{what}, got {target!r}; write target_action=the_node")
+        super().__init__(matcher=self._is_for, entities=reaction, **kwargs)
+        self._target = target
+        self._event_class = event_class
 
     def _is_for(self, event: Event) -> bool:
         if not isinstance(event, self._event_class):
             return False
         action = getattr(event, "action", None)
-        if self._target is None or isinstance(self._target, Action):
-            return self._target in (None, action)
-        return self._target(action)
+        return self._target(action) if callable(self._target) else self._target in (None, action)
 
 
-class OnExecutionComplete(OnActionEventBase):
+class OnExecutionComplete(_OnActionEvent):
     """Reacts to the end of any action."""
 
     def __init__(self, *, target_action: Target = None, on_completion: Reaction = None, **kwargs: Any) -> None:
-        super().__init__(
-            action_matcher=target_action, on_event=on_completion, target_event_cls=ExecutionComplete, **kwargs
-        )
+        super().__init__(target_action, on_completion, ExecutionComplete, **kwargs)
 
 
-class OnProcessExit(OnActionEventBase):
+class OnProcessStart(_OnActionEvent):
+    """Reacts to the start of a process."""
+
+    def __init__(self, *, target_action: Target = None, on_start: Reaction = None, **kwargs: Any) -> None:
+        super().__init__(target_action, on_start, ProcessStarted, **kwargs)
+
+
+class OnProcessExit(_OnActionEvent):
     """Reacts to the end of a process."""
 
     def __init__(self, *, target_action: Target = None, on_exit: Reaction = None, **kwargs: Any) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_exit, target_event_cls=ProcessExited, **kwargs)
+        super().__init__(target_action, on_exit, ProcessExited, **kwargs)
 
 
 OnOutput = Callable[[ProcessIO], SomeEntitiesType | None]
 
 
-class OnProcessIO(OnActionEventBase):
+class OnProcessIO(_OnActionEvent):
     """Calls a function with each piece of output of a process (`event.text`, bytes)."""
 
     def __init__(
         self,
         *,
         target_action: Target = None,
-        on_stdin: OnOutput | None = None,
         on_stdout: OnOutput | None = None,
         on_stderr: OnOutput | None = None,
         **kwargs: Any,
@@ -81,14 +80,7 @@ class OnProcessIO(OnActionEventBase):
             function = on_stdout if event.from_stdout else on_stderr
             return function(event) if function is not None else None
 
-        super().__init__(action_matcher=target_action, on_event=react, target_event_cls=ProcessIO, **kwargs)
-
-
-class OnProcessStart(OnActionEventBase):
-    """Reacts to the start of a process."""
-
-    def __init__(self, *, target_action: Target = None, on_start: Reaction = None, **kwargs: Any) -> None:
-        super().__init__(action_matcher=target_action, on_event=on_start, target_event_cls=ProcessStarted, **kwargs)
+        super().__init__(target_action, react, ProcessIO, **kwargs)
 
 
 class OnShutdown(EventHandler):

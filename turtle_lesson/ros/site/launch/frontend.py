@@ -1,30 +1,24 @@
-"""Launch files that are not Python: from XML or YAML text to actions (facts: launch.frontend of ROS 2 Humble)."""
+"""Launch files that are not Python: from XML or YAML text to actions (facts: launch.frontend of ROS 2 Humble).
+
+An action's `_tag` says of each argument of its constructor how it is read from a tag, as in `{"msg": attribute("message")}`.
+What is absent is None, and then the constructor's default counts. `launch_xml` and `launch_yaml` read the two formats.
+"""
 
 from __future__ import annotations
 
 import inspect
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO, TypeVar, get_args, get_origin
+from typing import Any, TypeVar
 
 from turtle_lesson.ros.idl.names import did_you_mean
 
-from ._entities import LaunchDescription, Place, Substitution, TextSubstitution, explained
+from ._entities import Action, LaunchDescription, Place, Substitution, TextSubstitution, explained
 
-if TYPE_CHECKING:
-    from ._entities import Action
-
-__all__ = [
-    "Entity",
-    "InvalidFrontendLaunchFileError",
-    "Parser",
-    "expose_action",
-    "expose_substitution",
-    "parse_if_substitutions",
-    "parse_substitution",
-]
+__all__ = ["Entity", "InvalidFrontendLaunchFileError", "parse_substitution"]
 
 
 class InvalidLaunchFileError(Exception):
@@ -65,100 +59,177 @@ MEANT = {
 
 
 class Entity:
-    """Base of `launch_xml.Entity` and `launch_yaml.Entity`, which say how their text is read.
+    """A tag of a launch file; `launch_xml.Entity` and `launch_yaml.Entity` say how it is written.
 
-    What is asked for (`get_attr`, `children`) is remembered, so that what nobody asks for can be refused. `place` is the file
-    and line where it is written, if that is known.
+    What is asked for (`get_attr`, `nested`, `children`) is remembered, so that what nobody asks for can be refused.
+    `place` is the file and line where it is written, if that is known.
     """
+
+    TAGS = ATTRIBUTES = "key(s)"
+    """What the format calls the tags and the attributes in a tag."""
 
     def __init__(
         self, element: Any, type_name: str, *, parent: Entity | None = None, file: str = "", line: int | None = None
     ) -> None:
         self.type_name = type_name
-        self.parent = parent
         self._element = element
-        self._file: str = file or (parent._file if parent is not None else "")
+        self._file: str = parent._file if parent is not None else file
+        self._numbers: Iterator[int] = parent._numbers if parent is not None else count(1)
         self.place: Place | None = (self._file, line) if self._file and line is not None else None
-        # What was asked for, and what of it was there: names by what the format calls them, such as `attribute(s)`.
         self._asked: defaultdict[str, set[str]] = defaultdict(set)
-        self._read: defaultdict[str, set[str]] = defaultdict(set)
 
     @property
     def children(self) -> list[Entity]:
-        """The entities in it."""
+        """The tags in it."""
         raise NotImplementedError
 
-    def _given(self) -> dict[str, Mapping[str, Any]]:
-        """Everything in it by name, for each kind of names that its format has."""
+    def _given(self, kind: str) -> Mapping[str, Any]:
+        """What is written in it, by name: its `TAGS` or its `ATTRIBUTES`."""
         raise NotImplementedError
 
     def _nested(self, name: str, given: Any) -> list[Entity]:
-        """The entities of a name."""
+        """The tags of a name."""
         raise NotImplementedError
 
-    def _value(self, name: str, given: Mapping[str, Any], data_type: Any, can_be_str: bool) -> Any:
-        """The value of a name. Raises TypeError if it is of another type."""
+    def _value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
+        """The value of an attribute. Raises TypeError if it is of another type."""
         raise NotImplementedError
 
-    def assert_entity_completely_parsed(self) -> None:
-        """Check that everything in it was asked for. Raises ValueError naming what nobody knows."""
-        for kind, given in self._given().items():
-            if left := set(given) - self._read[kind]:
-                raise self._unexpected(kind, left, self._asked[kind])
+    def nested(self, name: str) -> list[Entity]:
+        """The tags of a name in it."""
+        self._asked[self.TAGS].add(name)
+        given = self._given(self.TAGS)
+        return self._nested(name, given[name]) if name in given else []
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """An attribute's value, or the nested entities of that name if `data_type` is `List[Entity]`.
+        """An attribute's value.
 
         The type is bool, int, float, str, a list of one of these, or None for YAML's rules; with `can_be_str`, text,
         which may have substitutions in it, is as good. Raises AttributeError if it is absent and not optional, and
         TypeError for another type.
         """
-        is_nested = check_is_list_entity(data_type)
-        kind, given = list(self._given().items())[0 if is_nested else -1]
-        self._asked[kind].add(name)
-        if name not in given:
-            if optional:
-                return None
-            raise self._absent(name, data_type, given)
-        self._read[kind].add(name)
-        return self._nested(name, given[name]) if is_nested else self._value(name, given, data_type, can_be_str)
-
-    def _absent(self, name: str, data_type: Any, given: Iterable[Any]) -> AttributeError:
-        """The error about an attribute that must be given; what was perhaps given instead is pointed out."""
-        error = AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
+        self._asked[self.ATTRIBUTES].add(name)
+        given = self._given(self.ATTRIBUTES)
+        if name in given:
+            return self._value(name, data_type, can_be_str)
+        if optional:
+            return None
         other = next((word for word in given if MEANT.get(word) == name), None)
         hint = f"It is called {name} here, not {other}." if other else f"Give {self.type_name} the attribute {name}."
-        return explained(error, hint)
+        what = f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'"
+        raise explained(AttributeError(what), hint)
 
-    def _unexpected(self, what: str, names: set[str], known: set[str]) -> ValueError:
-        """The error about names that nobody has asked for, with what was perhaps meant."""
-        found = sorted(names, key=str)
-        error = ValueError(f"Unexpected {what} found in `{self.type_name}`: {{{', '.join(map(repr, found))}}}")
-        hints = [f"Did you mean '{MEANT[name]}'?" for name in found if MEANT.get(name) in known]
-        hints += [did_you_mean(str(name)[:100], sorted(known)) for name in found]
-        takes = f"`{self.type_name}` can have: {', '.join(sorted(known))}." if known else ""
-        return explained(error, next(filter(None, hints), takes))
-
-
-def check_is_list_entity(data_type: Any) -> bool:
-    """Whether it is `List[Entity]`, or a list of a subclass."""
-    return get_origin(data_type) is list and all(
-        isinstance(kind, type) and issubclass(kind, Entity) for kind in get_args(data_type)
-    )
+    def assert_entity_completely_parsed(self) -> None:
+        """Check that everything in it was asked for. Raises ValueError naming what nobody knows, and what was perhaps meant."""
+        for kind in dict.fromkeys((self.TAGS, self.ATTRIBUTES)):
+            known = self._asked[kind]
+            if left := sorted(set(self._given(kind)) - known, key=str):
+                what = f"Unexpected {kind} found in `{self.type_name}`: {{{', '.join(map(repr, left))}}}"
+                hints = [f"Did you mean '{MEANT[name]}'?" for name in left if MEANT.get(name) in known]
+                hints += [did_you_mean(str(name)[:100], sorted(known)) for name in left]
+                takes = f"`{self.type_name}` can have: {', '.join(sorted(known))}." if known else ""
+                raise explained(ValueError(what), next(filter(None, hints), takes))
 
 
-Exposed = TypeVar("Exposed")
+# -- how the arguments of an action are read from its tag ----------------------------------------------------------------
 
-action_parse_methods: dict[str, Callable[..., Any]] = {}
-substitution_parse_methods: dict[str, Callable[..., Any]] = {}
+Reader = Callable[[Entity], Any]
+
+
+def attribute(name: str, data_type: Any = str, *, optional: bool = False, can_be_str: bool = True) -> Reader:
+    """An attribute of a type, or of any (None); with `can_be_str` substitutions may stand for it."""
+
+    def read(entity: Entity) -> Any:
+        value = entity.get_attr(name, data_type=data_type, optional=optional, can_be_str=can_be_str)
+        return [_parsed(item) for item in value] if isinstance(value, list) else _parsed(value)
+
+    return read
+
+
+def _parsed(value: Any) -> Any:
+    """A value, in whose text `$(…)` stands for something; text without it stays text, and other values as they are."""
+    pieces = parse_substitution(value) if isinstance(value, str) else []
+    if len(pieces) == 1 and isinstance(pieces[0], TextSubstitution):
+        return pieces[0].text
+    return pieces or value
+
+
+def plain(name: str, *, optional: bool = False) -> Reader:
+    """An attribute that is text, in which `$(…)` stands for nothing."""
+
+    def read(entity: Entity) -> str | None:
+        value = entity.get_attr(name, optional=optional)
+        return None if value is None else _without_backslashes(value)
+
+    return read
+
+
+def tags(name: str, read: Reader) -> Reader:
+    """The nested tags of a name, each of them read in the same way."""
+
+    def read_all(entity: Entity) -> list[Any] | None:
+        found = []
+        for tag in entity.nested(name):
+            found.append(read(tag))
+            tag.assert_entity_completely_parsed()
+        return found or None
+
+    return read_all
+
+
+def pair(first: str = "name", second: str = "value") -> Reader:
+    """Two attributes that are text with substitutions."""
+    read_first, read_second = attribute(first), attribute(second)
+    return lambda entity: (read_first(entity), read_second(entity))
+
+
+def actions(entity: Entity) -> list[Action]:
+    """The actions in a tag."""
+    return [action_of(child) for child in entity.children]
+
+
+def anything(entity: Entity) -> None:
+    """Whatever is in a tag; it is passed over."""
+    for kind in (entity.TAGS, entity.ATTRIBUTES):
+        entity._asked[kind] |= set(entity._given(kind))
+
+
+# -- which action or substitution a name stands for ----------------------------------------------------------------------
+
+_actions: dict[str, type[Action]] = {}
+_substitutions: dict[str, type[Substitution]] = {}
+Kind = TypeVar("Kind", bound=type)
+
+
+def expose_action(name: str) -> Callable[[Kind], Kind]:
+    """Let a tag of this name stand for an action: decorates its class."""
+
+    def expose(kind: Kind) -> Kind:
+        _actions[name] = kind
+        return kind
+
+    return expose
+
+
+def expose_substitution(name: str) -> Callable[[Kind], Kind]:
+    """Let `$(name …)` stand for a substitution: decorates its class, whose arguments follow the name, in order."""
+
+    def expose(kind: Kind) -> Kind:
+        _substitutions[name] = kind
+        return kind
+
+    return expose
+
 
 _LOOP = "Loops are not available in XML and YAML files here: write the file in Python, with a loop."
-_LOGS = "There are no log files here."
+_GROUP = "It is not available here: put what belongs together into a group."
 _NOT_HERE = {
     **dict.fromkeys(("for", "for_each", "for-var", "index"), _LOOP),
-    **dict.fromkeys(("log_dir", "launch_log_dir", "set_ros_log_dir"), _LOGS),
+    **dict.fromkeys(("log_dir", "launch_log_dir", "set_ros_log_dir"), "There are no log files here."),
+    **dict.fromkeys(("push_env", "pop_env", "reset", "reset_env", "unset", "unset_env"), _GROUP),
     "all": "$(all …) is not available here: use $(and …).",
     "any": "$(any …) is not available here: use $(or …).",
+    "if": "$(if …) is not available here: use $(eval …).",
     "param": "$(param …) is not available here: use $(var …) of an argument.",
     "lifecycle_transition": "It is not available here: give lifecycle_node the attribute autostart.",
     "string-join": "$(string-join …) is not available here: write the pieces one after the other.",
@@ -166,16 +237,42 @@ _NOT_HERE = {
 """What a real launch has and this one does not, with what to do instead."""
 
 
-def instantiate_action(entity: Entity, parser: Parser) -> Action:
-    """The action that an entity stands for.
+def _named(known: Mapping[str, Kind], name: str, complaint: str) -> Kind:
+    if name in known:
+        return known[name]
+    close = did_you_mean(str(name)[:100], sorted(known)) or f"There are: {', '.join(sorted(known))}."
+    raise explained(RuntimeError(f"{complaint}{name}"), _NOT_HERE.get(name) or close)
 
-    Raises RuntimeError if no action has this name; and whatever its `parse` raises, with the place.
+
+MOST_ACTIONS = 10_000
+"""So many actions may stand in a file; YAML's anchors could make any number of them out of a few lines."""
+
+
+def action_of(entity: Entity) -> Action:
+    """The action that a tag stands for.
+
+    Raises RuntimeError if no action has this name, or it has both `if` and `unless`; and whatever is wrong with what is
+    written in it, with the place.
     """
+    from .conditions import IfCondition, UnlessCondition
+
+    if next(entity._numbers) > MOST_ACTIONS:
+        raise RuntimeError(f"a launch file of more than {MOST_ACTIONS} actions; does it repeat itself?")
     try:
-        method = _known(action_parse_methods, entity.type_name, "Unrecognized entity of the type: ")
-        action_type, kwargs = method(entity, parser)
+        kind = _named(_actions, entity.type_name, "Unrecognized entity of the type: ")
+        conditions = [
+            condition(parse_substitution(text))
+            for name, condition in (("if", IfCondition), ("unless", UnlessCondition))
+            if (text := entity.get_attr(name, optional=True)) is not None
+        ]
+        if len(conditions) > 1:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        arguments: dict[str, Any] = {"condition": next(iter(conditions), None)}
+        for name, read in kind._tag.items():
+            if (value := read(entity)) is not None:
+                arguments[name] = value
         entity.assert_entity_completely_parsed()
-        action: Action = action_type(**kwargs)
+        action = kind(**arguments)
     except Exception as error:
         explained(error, place=entity.place)
         raise
@@ -183,55 +280,56 @@ def instantiate_action(entity: Entity, parser: Parser) -> Action:
     return action
 
 
-def instantiate_substitution(type_name: str, args: Sequence[Any] | None = None) -> Substitution:
-    """The substitution that `$(type_name args…)` stands for; each argument is a list of substitutions.
+def description_of(root: Entity) -> LaunchDescription:
+    """The description that a root tag stands for.
 
-    Raises RuntimeError if no substitution has this name; and whatever its `parse` raises.
+    Raises RuntimeError if the root is not `launch`; and whatever is wrong below it.
     """
-    method = _known(substitution_parse_methods, type_name, "Unknown substitution: ")
-    substitution_type, kwargs = method([] if args is None else list(args))
-    substitution: Substitution = substitution_type(**kwargs)
-    return substitution
+    try:
+        if root.type_name != "launch":
+            raise RuntimeError("Expected 'launch' as root tag")
+        description = LaunchDescription(actions(root))
+        root.assert_entity_completely_parsed()
+        return description
+    except Exception as error:
+        explained(error, place=root.place)
+        raise
 
 
-def _known(methods: dict[str, Callable[..., Any]], name: str, complaint: str) -> Callable[..., Any]:
-    if name in methods:
-        return methods[name]
-    close = did_you_mean(str(name)[:100], sorted(methods)) or f"There are: {', '.join(sorted(methods))}."
-    raise explained(RuntimeError(f"{complaint}{name}"), _NOT_HERE.get(name) or close)
+def read_launch_file(file: str, read: Callable[[str, str], Entity] | None = None) -> Entity:
+    """The root tag of a file: as `read` reads it, or as what its ending says, or else as what it can be read as.
+
+    Raises InvalidFrontendLaunchFileError if it is neither XML nor YAML.
+    """
+    import launch_ros  # noqa: F401  (makes its actions known)
+    import launch_xml
+    import launch_yaml
+
+    text = Path(file).read_text(encoding="utf-8-sig")
+    if read is not None:
+        return read(text, file)
+    extension = Path(file).suffix.lstrip(".")
+    formats = [launch_yaml, launch_xml] if extension in ("yaml", "yml") else [launch_xml, launch_yaml]
+    errors = []
+    for each in formats:
+        try:
+            return each.read(text, file)
+        except Exception as error:
+            errors.append(error)
+    known = extension if extension in ("xml", "yaml", "yml") else ""
+    raise InvalidFrontendLaunchFileError(known, likely_errors=errors) from errors[0]
 
 
-def expose_action(name: str) -> Callable[[Exposed], Exposed]:
-    """Let a tag of this name stand for an action: decorates its class, which has a class method `parse`."""
-    return _exposing(name, action_parse_methods)
-
-
-def expose_substitution(name: str) -> Callable[[Exposed], Exposed]:
-    """Let `$(name …)` stand for a substitution: decorates its class, which has a class method `parse`."""
-    return _exposing(name, substitution_parse_methods)
-
-
-def _exposing(name: str, methods: dict[str, Callable[..., Any]]) -> Callable[[Exposed], Exposed]:
-    def expose(exposed: Exposed) -> Exposed:
-        method: Any = getattr(exposed, "parse", None) if inspect.isclass(exposed) else exposed
-        if inspect.isclass(exposed) and not inspect.ismethod(method):
-            raise RuntimeError("Did not find a class method called 'parse' in the class being decorated.")
-        methods[name] = method
-        return exposed
-
-    return expose
-
-
-IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+# -- `$(…)` in a text ----------------------------------------------------------------------------------------------------
 
 
 class SubstitutionSyntaxError(ValueError):
     """A text's `$(…)` are not well formed."""
 
 
-def replace_escaped_characters(data: str) -> str:
+def _without_backslashes(text: str) -> str:
     """The text without the backslashes that take a character's meaning away."""
-    return re.sub(r"\\(.)", r"\1", data)
+    return re.sub(r"\\(.?)", r"\1", text, flags=re.DOTALL)
 
 
 def parse_substitution(string_value: str) -> list[Substitution]:
@@ -239,72 +337,42 @@ def parse_substitution(string_value: str) -> list[Substitution]:
 
     Raises SubstitutionSyntaxError if a `$(` is not closed, or is otherwise wrong.
     """
-    if not isinstance(string_value, str):
-        raise TypeError(f"expected text, got {string_value!r} of type {type(string_value).__name__}")
     try:
-        return _Reader(string_value).template("") or [TextSubstitution(text=string_value)]
+        return _Reader(string_value).pieces("", "") or [TextSubstitution(text=string_value)]
     except RecursionError:
         raise SubstitutionSyntaxError("the substitutions are nested too deeply") from None
 
 
-def parse_if_substitutions(value: Any) -> Any:
-    """A value with its texts parsed; text without substitutions stays text, and other values as they are.
-
-    Raises ValueError if the items of a list are of several types.
-    """
-    kinds: set[type] = set()
-    if not isinstance(value, list):
-        return _parsed(value, kinds)
-    items = [_parsed(item, kinds) for item in value]
-    if len(kinds) > 1:
-        raise ValueError("The result is a non-uniform list")
-    return items
-
-
-def _parsed(value: Any, kinds: set[type]) -> Any:
-    if not isinstance(value, str):
-        kinds.add(type(value))
-        return value
-    pieces = parse_substitution(value)
-    if len(pieces) == 1 and isinstance(pieces[0], TextSubstitution):
-        kinds.add(str)
-        return pieces[0].text
-    return pieces
-
-
 class _Reader:
-    """Reads one text from left to right."""
+    """Reads one text from left to right. Within quotation marks, `quote`, such a mark ends everything."""
 
     def __init__(self, text: str) -> None:
         self._text = text
         self._at = 0
 
-    def template(self, quote: str) -> list[Substitution]:
-        """Everything up to the closing quote; without one, up to the end."""
-        found: list[Substitution] = []
-        while self._here and self._here != quote:
-            found += [self._substitution(quote)] if self._begins_one else self._plain(quote)
-        if quote and not self._here:
-            raise self._wrong(f"Close the quotation mark {quote} that begins an argument.")
-        return found
+    @property
+    def _here(self) -> str:
+        """The next character, or nothing at the end."""
+        return self._text[self._at : self._at + 1]
 
-    def _plain(self, stop: str, *, argument: bool = False) -> list[Substitution]:
-        """Text up to a substitution or a character of `stop`; in an argument spaces and brackets end it, too."""
-        stops = f"{stop} ()" if argument else stop
-        found = ""
-        while self._here and self._here not in stops and not self._begins_one:
-            if self._here == "$":
+    def pieces(self, stops: str, quote: str) -> list[Substitution]:
+        """Everything up to one of these characters, or to the end."""
+        plain = re.compile(rf"(?:\\.?|[^\\${stops}])+", re.DOTALL)
+        found: list[Substitution] = []
+        while self._here and self._here not in stops:
+            if match := plain.match(self._text, self._at):
+                self._at = match.end()
+                found.append(TextSubstitution(text=_without_backslashes(match[0])))
+            elif self._text.startswith("$(", self._at):
+                found.append(self._substitution(quote))
+            else:
                 raise self._wrong(r"A dollar sign that begins no $(…) is written \$.")
-            if self._here == "\\":
-                self._at += 1
-            found += self._here
-            self._at += 1
-        return [TextSubstitution(text=found)] if found else []
+        return found
 
     def _substitution(self, quote: str) -> Substitution:
         begin = self._at
-        self._at += 2
-        name = IDENTIFIER.match(self._text, self._at)
+        self._at += len("$(")
+        name = re.compile(r"[A-Za-z][A-Za-z0-9_-]*").match(self._text, self._at)
         if name is None:
             raise self._wrong("After $( comes the name of a substitution, as in $(var rate).")
         self._at = name.end()
@@ -315,113 +383,40 @@ class _Reader:
         if self._here != ")":
             raise self._wrong(f"Is the bracket of {self._text[begin : begin + 20]!r} closed?")
         self._at += 1
-        return instantiate_substitution(name[0], arguments)
+        return _substitution_of(name[0], arguments)
 
     def _argument(self, quote: str) -> list[Substitution]:
-        if not quote and self._here in {"'", '"'}:
+        if not quote and self._here in ("'", '"'):
             mark = self._here
             self._at += 1
-            inner = self.template(mark)
+            found = self.pieces(mark, mark)
+            if not self._here:
+                raise self._wrong(f"Close the quotation mark {mark} that begins an argument.")
             self._at += 1
-            return inner or [TextSubstitution(text="")]
-        found: list[Substitution] = []
-        begin = self._at
-        while self._here and self._here not in f"{quote or chr(39) + chr(34)} ()":
-            found += [self._substitution(quote)] if self._begins_one else self._plain(quote or "'\"", argument=True)
-        if self._at == begin:
+            return found or [TextSubstitution(text="")]
+        found = self.pieces((quote or "'\"") + " ()", quote)
+        if not found:
             raise self._wrong("Separate arguments by one space; put an argument with spaces in quotes.")
-        return found or [TextSubstitution(text="")]
-
-    @property
-    def _here(self) -> str:
-        """The next character, or nothing at the end."""
-        return self._text[self._at : self._at + 1]
-
-    @property
-    def _begins_one(self) -> bool:
-        return self._text.startswith("$(", self._at)
+        return found
 
     def _wrong(self, hint: str) -> SubstitutionSyntaxError:
-        what = (
-            f"No terminal matches {self._here!r} in the current parser context"
-            if self._here
-            else ("Unexpected end-of-input")
-        )
+        what = "Unexpected end-of-input"
+        if self._here:
+            what = f"No terminal matches {self._here!r} in the current parser context"
         return explained(SubstitutionSyntaxError(f"{what}, at line 1 col {self._at + 1} of {self._text!r}"), hint)
 
 
-MOST_ACTIONS = 10_000
-"""So many actions may stand in a file; YAML's anchors could make any number of them out of a few lines."""
+def _substitution_of(name: str, arguments: Sequence[list[Substitution]]) -> Substitution:
+    """What `$(name arguments…)` stands for.
 
-
-class Parser:
-    """Base of `launch_xml.Parser` and `launch_yaml.Parser`, which say how their text is read."""
-
-    def __init__(self) -> None:
-        self._actions = 0
-        self.load_launch_extensions()
-
-    @classmethod
-    def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """The root entity of a file; in this base by the reader that its ending asks for, or else by any that can read it.
-
-        Raises InvalidFrontendLaunchFileError if none can.
-        """
-        if isinstance(file, str | Path):
-            name, text = str(file), Path(file).read_text(encoding="utf-8-sig")
-        else:
-            name, text = str(getattr(file, "name", "")), file.read()
-        if cls is not Parser:
-            return cls.load_text(text, name)
-        import launch_xml
-        import launch_yaml
-
-        extension = Path(name).suffix.lstrip(".")
-        readers: list[type[Parser]] = [launch_xml.Parser, launch_yaml.Parser]
-        if extension in ("yaml", "yml"):
-            readers.reverse()
-        errors = []
-        for reader in readers:
-            try:
-                return reader.load_text(text, name)
-            except Exception as error:
-                errors.append(error)
-        known = extension if extension in ("xml", "yaml", "yml") else ""
-        raise InvalidFrontendLaunchFileError(known, likely_errors=errors) from errors[0]
-
-    @classmethod
-    def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
-        """The root entity of a text; `name` is the file's, for messages."""
-        raise NotImplementedError(f"{cls.__name__} does not say how to read a launch file")
-
-    @classmethod
-    def load_launch_extensions(cls) -> None:
-        """Make all actions and substitutions known."""
-        import launch_ros  # noqa: F401
-
-    def parse_action(self, entity: Entity) -> Action:
-        """The action that an entity stands for."""
-        self._actions += 1
-        if self._actions > MOST_ACTIONS:
-            raise RuntimeError(f"a launch file of more than {MOST_ACTIONS} actions; does it repeat itself?")
-        return instantiate_action(entity, self)
-
-    parse_substitution = staticmethod(parse_substitution)
-    parse_if_substitutions = staticmethod(parse_if_substitutions)
-    escape_characters = staticmethod(replace_escaped_characters)
-
-    def parse_description(self, entity: Entity) -> LaunchDescription:
-        """The description that a root entity stands for.
-
-        Raises RuntimeError if the root is not `launch`; and whatever is wrong below it.
-        """
-        if entity.type_name != "launch":
-            raise explained(RuntimeError("Expected 'launch' as root tag"), place=entity.place)
-        try:
-            deprecated = entity.get_attr("deprecated", optional=True)
-            actions = [self.parse_action(child) for child in entity.children]
-            entity.assert_entity_completely_parsed()
-        except Exception as error:
-            explained(error, place=entity.place)
-            raise
-        return LaunchDescription(actions, deprecated_reason=deprecated)
+    Raises RuntimeError if there is no such substitution, and TypeError for a wrong number of arguments.
+    """
+    kind = _named(_substitutions, name, "Unknown substitution: ")
+    known = inspect.signature(kind).parameters.values()
+    least, most = sum(each.default is each.empty for each in known), len(known)
+    if not least <= len(arguments) <= most:
+        number = f"{least} {'or' if most == least + 1 else 'to'} {most}" if least < most else str(most or "no")
+        error = TypeError(f"{name} substitution expects {number} {'argument' if number == '1' else 'arguments'}")
+        shown = " ".join([name, *(f"<{each.name}>" for each in known)])
+        raise explained(error, f"Write $({shown}); put an argument with spaces in quotes.")
+    return kind(**{each.name: given for each, given in zip(known, arguments, strict=False)})

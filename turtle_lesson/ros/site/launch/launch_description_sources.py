@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -12,7 +13,13 @@ from turtle_lesson.ros.sim.errors import shown_path
 
 from ._context import LaunchContext
 from ._entities import LaunchDescription, SomeSubstitutionsType, described, explained
-from .frontend import InvalidFrontendLaunchFileError, InvalidLaunchFileError, Parser
+from .frontend import (
+    Entity,
+    InvalidFrontendLaunchFileError,
+    InvalidLaunchFileError,
+    description_of,
+    read_launch_file,
+)
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 __all__ = ["AnyLaunchDescriptionSource", "FrontendLaunchDescriptionSource", "PythonLaunchDescriptionSource"]
@@ -65,38 +72,6 @@ class InvalidPythonLaunchFileError(Exception):
     """A Python launch file lacks what every launch file must have."""
 
 
-def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleType:
-    """Run the file in a fresh module, each time anew."""
-    path = Path(python_launch_file_path)
-    module = ModuleType("python_launch_file")
-    module.__file__ = str(path)
-    code = compile(path.read_bytes(), str(path), "exec")
-    exec(code, module.__dict__)
-    return module
-
-
-def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> LaunchDescription:
-    """What the file's `generate_launch_description()` returns.
-
-    Raises InvalidPythonLaunchFileError if it has no such function; and whatever the file itself raises.
-    """
-    module = load_python_launch_file_as_module(python_launch_file_path)
-    generate = getattr(module, "generate_launch_description", None)
-    if generate is None:
-        functions = [name for name, value in vars(module).items() if callable(value)]
-        close = difflib.get_close_matches("generate_launch_description", functions, n=1)
-        write = "Write: def generate_launch_description(): return LaunchDescription([…])"
-        hint = f"Rename {close[0]}() to generate_launch_description()." if close else write
-        raise _without_function(python_launch_file_path, hint)
-    description: LaunchDescription = generate()
-    return description
-
-
-def _without_function(path: str, hint: str = "") -> InvalidPythonLaunchFileError:
-    missing = "does not contain the required function 'generate_launch_description()'"
-    return explained(InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}"), hint)
-
-
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
     """Gets the description from a Python launch file."""
 
@@ -104,39 +79,44 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
         super().__init__(None, launch_file_path, "interpreted python launch file")
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        return get_launch_description_from_python_launch_file(location)
+        """What the file's `generate_launch_description()` returns; the file is run in a fresh module, each time anew.
+
+        Raises InvalidPythonLaunchFileError if it has no such function; and whatever the file itself raises.
+        """
+        module = ModuleType("python_launch_file")
+        module.__file__ = location
+        exec(compile(Path(location).read_bytes(), location, "exec"), vars(module))
+        generate = getattr(module, "generate_launch_description", None)
+        if generate is None:
+            functions = [name for name, value in vars(module).items() if callable(value)]
+            close = difflib.get_close_matches("generate_launch_description", functions, n=1)
+            write = "Write: def generate_launch_description(): return LaunchDescription([…])"
+            hint = f"Rename {close[0]}() to generate_launch_description()." if close else write
+            raise explained(_without_function(location), hint)
+        description: LaunchDescription = generate()
+        return description
 
 
-def get_launch_description_from_frontend_launch_file(
-    launch_file_path: str, *, parser: type[Parser] = Parser
-) -> LaunchDescription:
-    """The description in a launch file that is not Python.
-
-    Raises InvalidFrontendLaunchFileError if no reader can read it; and whatever is wrong in it.
-    """
-    root, reader = parser.load(launch_file_path)
-    return reader.parse_description(root)
+def _without_function(path: str) -> InvalidPythonLaunchFileError:
+    missing = "does not contain the required function 'generate_launch_description()'"
+    return InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}")
 
 
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
-    """Gets the description from an XML or YAML launch file."""
+    """Gets the description from an XML or YAML launch file. `read` gives the root tag of a text of one format."""
 
     def __init__(
         self,
         launch_file_path: SomeSubstitutionsType,
         *,
         method: str = "interpreted frontend launch file",
-        parser: type[Parser] = Parser,
+        read: Callable[[str, str], Entity] | None = None,
     ) -> None:
         super().__init__(None, launch_file_path, method)
-        self._parser = parser
+        self._read = read
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        return get_launch_description_from_frontend_launch_file(location, parser=self._parser)
-
-
-ENDINGS = ("launch.xml", "launch.yaml", "launch.yml")
-"""How the names of XML and YAML launch files end, with a dot or an underscore before."""
+        return description_of(read_launch_file(location, self._read))
 
 
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
@@ -146,33 +126,24 @@ class AnyLaunchDescriptionSource(LaunchDescriptionSource):
         super().__init__(None, launch_file_path, "interpreted launch file")
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        return get_launch_description_from_any_launch_file(location)
-
-
-def get_launch_description_from_any_launch_file(
-    launch_file_path: str, *, parser: type[Parser] = Parser
-) -> LaunchDescription:
-    """The description in a launch file.
-
-    Raises InvalidLaunchFileError caused by what went wrong in the file; its text is the real one.
-    """
-    extension = os.path.splitext(launch_file_path)[1].lstrip(".")
-    is_python = extension not in {"xml", "yaml", "yml"}
-    try:
-        if is_python:
-            return get_launch_description_from_python_launch_file(launch_file_path)
-        return get_launch_description_from_frontend_launch_file(launch_file_path, parser=parser)
-    except Exception as error:
-        if isinstance(error, FileNotFoundError) and error.filename == launch_file_path:
-            raise
-        wrong = error
-    likely = [wrong]
-    if not is_python:
-        known = os.path.basename(launch_file_path).endswith(ENDINGS)
-        likely = [wrong, _why_no_python(launch_file_path)] if known else []
-    elif not isinstance(wrong, PackageNotFoundError):  # the real one says there, too, that the syntax may be wrong
-        likely.append(InvalidFrontendLaunchFileError())
-    raise InvalidLaunchFileError(extension if likely else "", likely_errors=likely) from wrong
+        """The description. Raises InvalidLaunchFileError caused by what went wrong in the file; its text is the real one."""
+        extension = os.path.splitext(location)[1].lstrip(".")
+        is_python = extension not in {"xml", "yaml", "yml"}
+        source = PythonLaunchDescriptionSource if is_python else FrontendLaunchDescriptionSource
+        try:
+            return source(location)._get_launch_description(location)
+        except Exception as error:
+            if isinstance(error, FileNotFoundError) and error.filename == location:
+                raise
+            likely = [error]
+            if is_python and not isinstance(error, PackageNotFoundError):
+                # the real one says there, too, that the syntax may be wrong
+                likely.append(InvalidFrontendLaunchFileError())
+            elif location.endswith(("launch.xml", "launch.yaml", "launch.yml")):
+                likely.append(_why_no_python(location))
+            elif not is_python:
+                likely, extension = [], ""
+            raise InvalidLaunchFileError(extension, likely_errors=likely) from error
 
 
 def _why_no_python(path: str) -> Exception:

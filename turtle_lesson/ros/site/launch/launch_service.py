@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
 import time
-from collections import deque
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -34,7 +32,7 @@ class LaunchService:
         self.context: LaunchContext = self._launch.context
         self.context.argv = list(argv or [])
         self.context.noninteractive = noninteractive
-        self._early: deque[Event] = deque()
+        self._early: list[Event] = []
         self._runs = False
 
     def emit_event(self, event: Event) -> None:
@@ -59,37 +57,21 @@ class LaunchService:
         return codes[0] if codes else 0
 
     def _run(self, shutdown_when_idle: bool) -> int:
-        self._begin()
-        while self._goes_on(shutdown_when_idle):
+        self._runs = True
+        while self._early and not self._launch.failed:
+            self._launch.begin_or_fail(EmitEvent(event=self._early.pop(0)))
+        while self._launch.running or not (shutdown_when_idle or self.context.is_shutdown):
             try:
                 time.sleep(LOOKS)
             except KeyboardInterrupt:
                 if not self.context.is_shutdown:
                     self._launch.interrupt()
-        return self._end()
-
-    async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """The same as a coroutine."""
-        self._begin()
-        while self._goes_on(shutdown_when_idle):
-            await asyncio.sleep(LOOKS)
-        return self._end()
-
-    def _begin(self) -> None:
-        self._runs = True
-        while self._early and not self._launch.failed:
-            self._launch.begin_or_fail(EmitEvent(event=self._early.popleft()))
-
-    def _goes_on(self, shutdown_when_idle: bool) -> bool:
-        return self._launch.running or not (shutdown_when_idle or self.context.is_shutdown)
-
-    def _end(self) -> int:
         if not self.context.is_shutdown:
             self._launch.shut_down("idle")
         self._runs = False
         return 1 if self._launch.failed else 0
 
-    def shutdown(self, force_sync: bool = False) -> None:
+    def shutdown(self) -> None:
         """End the launch; nothing if it does not run."""
         if self._runs and not self.context.is_shutdown:
             self._launch.shut_down("LaunchService.shutdown() called")

@@ -8,31 +8,28 @@ import math
 import os
 import shutil
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 from typing import Any
 
 from turtle_lesson.ros import hooks
 
 from ._context import LaunchContext
-from ._entities import SomeSubstitutionsType, Substitution, TextSubstitution, described
-from ._tags import expose_as
-from .utilities import normalize_to_list_of_substitutions as pieces
-from .utilities import perform_substitutions
+from ._entities import SomeSubstitutionsType, Substitution, TextSubstitution, described, explained, text_of
+from ._entities import normalize_to_list_of_substitutions as pieces
+from .frontend import expose_substitution
 
 __all__ = [
     "AndSubstitution",
-    "AnonName",
     "Command",
     "EnvironmentVariable",
     "EqualsSubstitution",
     "FindExecutable",
-    "IfElseSubstitution",
     "LaunchConfiguration",
     "LocalSubstitution",
     "NotEqualsSubstitution",
     "NotSubstitution",
     "OrSubstitution",
     "PathJoinSubstitution",
-    "PathSubstitution",
     "PythonExpression",
     "SubstitutionFailure",
     "TextSubstitution",
@@ -42,70 +39,62 @@ __all__ = [
 
 
 class SubstitutionFailure(RuntimeError):
-    """A substitution could not be performed. `hint` says what to try."""
-
-    def __init__(self, message: str = "", hint: str = "") -> None:
-        super().__init__(message)
-        self.hint = hint
+    """A substitution could not be performed."""
 
 
 # -- values that are known while the launch runs -------------------------------------------------------------------------
 
 
-@expose_as("var")
+@expose_substitution("var")
+@dataclass(repr=False, eq=False)
 class LaunchConfiguration(Substitution):
     """Stands for the launch argument or configuration of a name."""
 
+    variable_name: SomeSubstitutionsType
+    default: Any = field(default=None, kw_only=True)
     _shown = "LaunchConfig({variable_name})"
 
-    def __init__(
-        self,
-        variable_name: SomeSubstitutionsType,
-        *,
-        default: Any | Iterable[Any] | None = None,
-    ) -> None:
-        self.variable_name = pieces(variable_name)
-        if default is not None:
-            parts = [default] if isinstance(default, str) or not isinstance(default, Iterable) else default
-            default = pieces(part if isinstance(part, str | Substitution) else str(part) for part in parts)
-        self._default: list[Substitution] | None = default
+    def __post_init__(self) -> None:
+        if self.default is not None:
+            parts = self.default if isinstance(self.default, list | tuple) else [self.default]
+            self.default = [part if isinstance(part, Substitution) else str(part) for part in parts]
+        super().__post_init__()
 
     def perform(self, context: LaunchContext) -> str:
         """The value, or the default. Raises SubstitutionFailure if it has neither."""
-        name = perform_substitutions(context, self.variable_name)
+        name = text_of(context, self.variable_name)
         context._configurations_read.add(name)
         if name in context.launch_configurations:
             return str(context.launch_configurations[name])
-        if self._default is not None:
-            return perform_substitutions(context, self._default)
+        if self.default is not None:
+            return text_of(context, self.default)
         close = difflib.get_close_matches(name, list(context.launch_configurations), n=1)
         declare = (
             f"Before its first use put DeclareLaunchArgument('{name}', default_value='…'), "
             f'in XML <arg name="{name}" default="…"/>.'
         )
         hint = f"Did you mean LaunchConfiguration('{close[0]}')?" if close else declare
-        raise SubstitutionFailure(f"launch configuration '{name}' does not exist", hint)
+        raise explained(SubstitutionFailure(f"launch configuration '{name}' does not exist"), hint)
 
 
-@expose_as("env")
+@expose_substitution("env")
+@dataclass(repr=False, eq=False)
 class EnvironmentVariable(Substitution):
     """Stands for the environment variable of a name, as this launch sees it."""
 
+    name: SomeSubstitutionsType
+    default_value: SomeSubstitutionsType | None = field(default=None, kw_only=True)
     _shown = "EnvVar({name})"
-
-    def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
-        self.name = pieces(name)
-        self.default_value = None if default_value is None else pieces(default_value)
 
     def perform(self, context: LaunchContext) -> str:
         """The value, or the default. Raises SubstitutionFailure if it has neither."""
-        name = perform_substitutions(context, self.name)
+        name = text_of(context, self.name)
         if name in context.environment:
             return context.environment[name]
         if self.default_value is None:
             hint = f"Give a default: EnvironmentVariable('{name}', default_value='…')."
-            raise SubstitutionFailure(f"environment variable '{name}' does not exist", hint)
-        return perform_substitutions(context, self.default_value)
+            raise explained(SubstitutionFailure(f"environment variable '{name}' does not exist"), hint)
+        return text_of(context, self.default_value)
 
 
 class LocalSubstitution(Substitution):
@@ -119,93 +108,67 @@ class LocalSubstitution(Substitution):
         """The value as text. Raises SubstitutionFailure if there is no such value."""
         value: object = context.locals
         for name in self.expression.split("."):
-            try:
-                value = getattr(value, name)
-            except AttributeError as error:
-                raise SubstitutionFailure(f"'{self.expression}': {error}") from error
+            if not hasattr(value, name):
+                what = f"context.locals does not contain attribute '{name}'"
+                raise SubstitutionFailure(f"'{self.expression}': {what}")
+            value = getattr(value, name)
         return str(value)
 
 
-@expose_as("anon")
-class AnonName(Substitution):
-    """The given name with a number behind it; the same name gives the same one within a launch.
-
-    The real one puts the machine, the process and random digits there; here it is the same in every run.
-    """
-
-    _shown = "AnonName({name})"
-
-    def __init__(self, name: SomeSubstitutionsType) -> None:
-        self.name = pieces(name)
-
-    def perform(self, context: LaunchContext) -> str:
-        """The name."""
-        name = perform_substitutions(context, self.name)
-        known = context.launch_configurations
-        numbers = [key for key in known if key.startswith("anon")]
-        return str(known.setdefault(f"anon{name}", f"{name}_{len(numbers) + 1}"))
-
-
-class _Place(Substitution):
-    """Something about the launch file, which a context's locals have."""
-
-    _local: str
+@expose_substitution("filename")
+@dataclass(repr=False, eq=False)
+class ThisLaunchFile(Substitution):
+    """The path of the launch file."""
 
     def perform(self, context: LaunchContext) -> str:
         """The path. Raises SubstitutionFailure outside of a launch file."""
         values = context.get_locals_as_dict()
-        if self._local not in values:
+        if "current_launch_file_path" not in values:
             raise SubstitutionFailure(f"{type(self).__name__} used outside of a launch file (in a script)")
-        return str(values[self._local])
+        return str(values["current_launch_file_path"])
 
 
-@expose_as("filename")
-class ThisLaunchFile(_Place):
-    """The path of the launch file."""
-
-    _local = "current_launch_file_path"
-
-
-@expose_as("dirname")
-class ThisLaunchFileDir(_Place):
+@expose_substitution("dirname")
+class ThisLaunchFileDir(ThisLaunchFile):
     """The folder of the launch file."""
 
-    _local = "current_launch_file_directory"
+    def perform(self, context: LaunchContext) -> str:
+        """The path. Raises SubstitutionFailure outside of a launch file."""
+        return os.path.dirname(super().perform(context))
 
 
-@expose_as("eval")
+@expose_substitution("eval")
+@dataclass(repr=False, eq=False)
 class PythonExpression(Substitution):
     """Evaluates an expression; the names of the modules, and what `math` has in it, may be used."""
 
+    expression: SomeSubstitutionsType
+    python_modules: SomeSubstitutionsType = ("math",)
     _shown = "PythonExpr({expression})"
-
-    def __init__(self, expression: SomeSubstitutionsType, python_modules: SomeSubstitutionsType = ("math",)) -> None:
-        self.expression = pieces(expression)
-        self.python_modules = pieces(python_modules)
 
     def perform(self, context: LaunchContext) -> str:
         """The expression's value as text. Raises SubstitutionFailure if it is no expression, or fails."""
-        text = perform_substitutions(context, self.expression)
+        text = text_of(context, self.expression)
         names: dict[str, Any] = {}
-        for part in self.python_modules:
+        for part in pieces(self.python_modules):
             module = importlib.import_module(part.perform(context))
             names[module.__name__] = module
-            if module.__name__ == "math":
-                names.update(vars(module))
+            if module is math:
+                names.update(vars(math))
         try:
             return str(eval(compile(text, "<generated expression>", "eval"), {}, names))
         except Exception as error:
-            reason = f"the Python expression {text!r} failed: {type(error).__name__}: {error}"
+            failure = SubstitutionFailure(f"the Python expression {text!r} failed: {type(error).__name__}: {error}")
             hint = "Text that is compared needs quotes: [\"'\", LaunchConfiguration('mode'), \"' == 'fast'\"]."
-            raise SubstitutionFailure(reason, hint) from error
+            raise explained(failure, hint) from error
 
 
-# -- truth values, and choices between texts -----------------------------------------------------------------------------
+# -- truth values --------------------------------------------------------------------------------------------------------
 
 
-def _truth(context: LaunchContext, value: list[Substitution]) -> bool:
+def _truth(context: LaunchContext, value: SomeSubstitutionsType) -> bool:
     """Whether a text says yes; SubstitutionFailure if it says neither yes nor no."""
-    text = perform_substitutions(context, value).strip()
+    text = text_of(context, value).strip()
     if text.lower() in {"true", "1", "yes", "on"}:
         return True
     if text.lower() in {"false", "0", "no", "off"}:
@@ -213,128 +176,73 @@ def _truth(context: LaunchContext, value: list[Substitution]) -> bool:
     raise SubstitutionFailure(f"'{text}' is neither true nor false")
 
 
-@expose_as("not")
+@expose_substitution("not")
+@dataclass(repr=False, eq=False)
 class NotSubstitution(Substitution):
     """True if its part is false."""
 
-    _shown = "NotSubstitution({value})"
-
-    def __init__(self, value: SomeSubstitutionsType) -> None:
-        self.value = pieces(value)
+    value: SomeSubstitutionsType
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return str(not _truth(context, self.value)).lower()
 
 
+@dataclass(repr=False, eq=False)
 class _Pair(Substitution):
-    """Two truth values made into one."""
+    """Two texts made into a truth value."""
 
-    _enough: int
-    """How many of them must be true."""
-
-    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
-        self.left, self.right = pieces(left), pieces(right)
-
-    def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
-        return str(_truth(context, self.left) + _truth(context, self.right) >= self._enough).lower()
+    left: SomeSubstitutionsType
+    right: SomeSubstitutionsType
 
 
-@expose_as("and")
+@expose_substitution("and")
 class AndSubstitution(_Pair):
     """True if both are."""
 
-    _shown = "AndSubstitution({left} {right})"
-    _enough = 2
+    def perform(self, context: LaunchContext) -> str:
+        """`true` or `false`."""
+        return str(_truth(context, self.left) and _truth(context, self.right)).lower()
 
 
-@expose_as("or")
+@expose_substitution("or")
 class OrSubstitution(_Pair):
     """True if one is."""
 
-    _shown = "OrSubstitution({left} {right})"
-    _enough = 1
+    def perform(self, context: LaunchContext) -> str:
+        """`true` or `false`."""
+        return str(_truth(context, self.left) or _truth(context, self.right)).lower()
 
 
-@expose_as("equals")
-class EqualsSubstitution(Substitution):
+@expose_substitution("equals")
+class EqualsSubstitution(_Pair):
     """`true` if both sides are the same text, the same truth value, or numbers that are nearly equal."""
 
-    _shown = "EqualsSubstitution({left} {right})"
-
-    def __init__(
-        self,
-        left: SomeSubstitutionsType | int | float | bool | None,
-        right: SomeSubstitutionsType | int | float | bool | None,
-    ) -> None:
-        self.left, self.right = _side(left), _side(right)
+    def __init__(self, left: SomeSubstitutionsType | float | None, right: SomeSubstitutionsType | float | None) -> None:
+        sides = [str(side).lower() if isinstance(side, int | float) else side for side in (left, right)]
+        super().__init__(*("" if side is None else side for side in sides))
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
-        return str(self._same(context)).lower()
-
-    def _same(self, context: LaunchContext) -> bool:
-        left, right = perform_substitutions(context, self.left), perform_substitutions(context, self.right)
+        left, right = text_of(context, self.left), text_of(context, self.right)
         if {left.lower(), right.lower()} <= {"true", "false"} or left == right:
-            return left.lower() == right.lower()
+            return str(left.lower() == right.lower()).lower()
         try:
-            return math.isclose(float(left), float(right))
+            return str(math.isclose(float(left), float(right))).lower()
         except ValueError:
-            return False
+            return "false"
 
 
-def _side(side: Any) -> list[Substitution]:
-    if isinstance(side, bool):
-        return pieces(str(side).lower())
-    return pieces("" if side is None else str(side) if isinstance(side, int | float) else side)
-
-
-@expose_as("not-equals")
+@expose_substitution("not-equals")
 class NotEqualsSubstitution(EqualsSubstitution):
     """The opposite."""
 
-    _shown = "NotEqualsSubstitution({left} {right})"
-
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
-        return str(not self._same(context)).lower()
-
-
-@expose_as("if")
-class IfElseSubstitution(Substitution):
-    """One of two texts, by a condition."""
-
-    def __init__(
-        self,
-        condition: SomeSubstitutionsType,
-        if_value: SomeSubstitutionsType = "",
-        else_value: SomeSubstitutionsType = "",
-    ) -> None:
-        self.condition, self.if_value, self.else_value = pieces(condition), pieces(if_value), pieces(else_value)
-
-    def perform(self, context: LaunchContext) -> str:
-        """The text that the condition chooses."""
-        return perform_substitutions(context, self.if_value if _truth(context, self.condition) else self.else_value)
+        return "false" if super().perform(context) == "true" else "true"
 
 
 # -- paths, and what commands print --------------------------------------------------------------------------------------
-
-
-class PathSubstitution(Substitution):
-    """A path, to which `/` adds further parts: `PathSubstitution(FindPackageShare('p')) / 'launch' / 'x.py'`."""
-
-    _shown = "Path({path})"
-
-    def __init__(self, path: SomeSubstitutionsType) -> None:
-        self.path = pieces(path)
-
-    def __truediv__(self, additional_path: SomeSubstitutionsType) -> PathJoinSubstitution:
-        return PathJoinSubstitution([self, additional_path])
-
-    def perform(self, context: LaunchContext) -> str:
-        """The path."""
-        return perform_substitutions(context, self.path)
 
 
 class PathJoinSubstitution(Substitution):
@@ -352,26 +260,21 @@ class PathJoinSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The path."""
-        return os.path.join(*[perform_substitutions(context, part) for part in self.substitutions])
+        return os.path.join(*[text_of(context, part) for part in self.substitutions])
 
 
-PROGRAMS = {"ros2", "python3", "python", "xacro"}
-"""Programs that the simulation itself has."""
-
-
-@expose_as("find-exec")
+@expose_substitution("find-exec")
+@dataclass(repr=False, eq=False, kw_only=True)
 class FindExecutable(Substitution):
-    """Stands for the path at which a program is found."""
+    """Stands for the path at which a program is found; those that the simulation has are found by their names."""
 
+    name: SomeSubstitutionsType
     _shown = "FindExec({name})"
-
-    def __init__(self, *, name: SomeSubstitutionsType) -> None:
-        self.name = pieces(name)
 
     def perform(self, context: LaunchContext) -> str:
         """The path. Raises SubstitutionFailure if it is not on the PATH."""
-        name = perform_substitutions(context, self.name)
-        if name in PROGRAMS:
+        name = text_of(context, self.name)
+        if name in ("ros2", "python3", "python", "xacro"):
             return name
         path = shutil.which(name, path=context.environment.get("PATH"))
         if path is None:
@@ -379,19 +282,14 @@ class FindExecutable(Substitution):
         return path
 
 
-class CommandFailure(SubstitutionFailure):
-    """A command has failed, or the simulation does not have it."""
-
-
-@expose_as("command")
+@expose_substitution("command")
+@dataclass(repr=False, eq=False)
 class Command(Substitution):
     """Stands for the output of a command. Here these are `cat FILE`, `echo …` and `xacro FILE`."""
 
+    command: SomeSubstitutionsType
+    on_stderr: SomeSubstitutionsType = field(default="fail", kw_only=True)
     _shown = "Command({command})"
-
-    def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
-        self.command = pieces(command)
-        self.on_stderr = pieces(on_stderr)
 
     def perform(self, context: LaunchContext) -> str:
         """What it prints.
@@ -399,11 +297,10 @@ class Command(Substitution):
         Raises SubstitutionFailure if it fails, or the simulation does not have it, and NotHereError if it needs a
         Python package that is not installed; then the launch goes on without the action.
         """
-        text = perform_substitutions(context, self.command)
-        if perform_substitutions(context, self.on_stderr) not in ("fail", "ignore", "warn", "capture"):
-            raise SubstitutionFailure("expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'")
+        text = text_of(context, self.command)
         try:
             return hooks.output_of_command(text)
-        except CommandFailure as error:
-            reason = f"executed command failed. Command: {text}\nCaptured stderr output: {error}"
-            raise SubstitutionFailure(reason, error.hint) from error
+        except SubstitutionFailure as error:
+            raise SubstitutionFailure(
+                f"executed command failed. Command: {text}\nCaptured stderr output: {error}"
+            ) from error

@@ -16,25 +16,22 @@ from typing import Any, get_args, get_origin
 
 import yaml
 from launch import LaunchContext
-from launch._entities import SomeSubstitutionsType, Substitution
-from launch._tags import Reader, tags, text, typed
-from launch.frontend import Entity, Parser, parse_substitution
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions, perform_text_as, text_of
+from launch._entities import (
+    SomeSubstitutionsType,
+    Substitution,
+    explained,
+    normalize_to_list_of_substitutions,
+    text_of,
+)
+from launch.frontend import Entity, attribute, parse_substitution, tags
+from launch.utilities import perform_text_as
 
 from turtle_lesson.ros.runtime.bounded_yaml import safe_load
 
-__all__ = ["Parameter", "ParameterFile", "ParameterValue"]
+__all__ = ["ParameterFile", "ParameterValue"]
 
 
 PLAIN = (bool, int, float, str)
-
-
-class ParameterTypeError(TypeError):
-    """A parameter's value is of no type that ROS has. `hint` says what to try."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.hint = hint
 
 
 def parameters_in(context: LaunchContext, given: Mapping[Any, Any]) -> Iterator[tuple[str, Any]]:
@@ -47,61 +44,55 @@ def parameters_in(context: LaunchContext, given: Mapping[Any, Any]) -> Iterator[
             continue
         try:
             yield name, value_of(context, value)
-        except ParameterTypeError as error:
-            error.hint = f"This is parameter '{name}'. {error.hint}".strip()
-            raise
+        except TypeError as error:
+            hint = f"This is parameter '{name}'. {getattr(error, 'hint', '')}"
+            raise explained(TypeError(str(error)), hint.strip()) from error
 
 
 def value_of(context: LaunchContext, value: Any) -> Any:
-    """One value, substitutions performed. Raises ParameterTypeError if no ROS parameter can have it."""
-    if hasattr(value, "evaluate"):  # a ParameterValue
+    """One value, substitutions performed. Raises TypeError if no ROS parameter can have it."""
+    if isinstance(value, ParameterValue):
         return value.evaluate(context)
     if isinstance(value, PLAIN):
         return value
     if isinstance(value, Substitution):
-        return _from_text(perform_substitutions(context, [value]))
+        return _from_text(text_of(context, value))
     if isinstance(value, Sequence) and not isinstance(value, bytes):
         if any(isinstance(item, Substitution) for item in value):
             return _from_text(text_of(context, value))
         if any(isinstance(item, Sequence) and not isinstance(item, str) for item in value):
             return uniform([safe_load(text_of(context, item)) for item in value])
         return uniform(list(value))
-    raise ParameterTypeError(
-        f"Unexpected type for parameter value {value!r}",
-        "It can be a bool, int, float, text, or a list.",
-    )
+    raise TypeError(f"Unexpected type for parameter value {value!r}; it can be a bool, int, float, text, or a list")
 
 
 def _from_text(text: str) -> Any:
     """What YAML makes of a substitution's text; an empty text stays one (launch_ros, pull request 300)."""
-    if not text:
-        return ""
-    value = safe_load(text)
+    value = safe_load(text) if text else ""
     if isinstance(value, PLAIN):
         return value
     if isinstance(value, list):
         return uniform(value)
-    raise ParameterTypeError(
+    error = TypeError(
         "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], "
-        f"Sequence[float], Sequence[str]. Got {type(value)}.",
-        f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text.",
+        f"Sequence[float], Sequence[str]. Got {type(value)}."
     )
+    raise explained(error, f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text.")
 
 
 def uniform(items: list[Any]) -> list[Any]:
     """The items if they are of one type, integers among floats made floats.
 
-    Raises ParameterTypeError if they are not, or if there are none.
+    Raises TypeError if they are not, or if there are none.
     """
     kinds = {type(item) for item in items}
     if kinds == {int, float}:
         return [float(item) for item in items]
     if len(kinds) == 1 and kinds <= set(PLAIN):
         return items
-    raise ParameterTypeError(
+    raise TypeError(
         "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are bool, "
-        "int, float, str.",
-        f"Got {items!r}.",
+        f"int, float, str. Got {items!r}."
     )
 
 
@@ -136,20 +127,6 @@ class ParameterValue:
         return uniform([perform_text_as(context, item, get_args(self.value_type)[0]) for item in items])
 
 
-class Parameter:
-    """A parameter: name and value, for `parameters=[Parameter('rate', 5.0)]`; the type is as in `ParameterValue`."""
-
-    def __init__(self, name: SomeSubstitutionsType, value: Any, *, value_type: Any = None) -> None:
-        self.name = normalize_to_list_of_substitutions(name)
-        self.value = value
-        self.value_type = value_type
-
-    def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Name and value in this context."""
-        value = ParameterValue(self.value, value_type=self.value_type).evaluate(context)
-        return perform_substitutions(context, self.name), value
-
-
 class ParameterFile:
     """A YAML file with parameters; with `allow_substs`, `$(…)` in it stand for something."""
 
@@ -162,19 +139,17 @@ class ParameterFile:
         if isinstance(param_file, PathLike):
             param_file = fspath(param_file)
         self.param_file = normalize_to_list_of_substitutions(param_file)
-        self.allow_substs = (
-            allow_substs if isinstance(allow_substs, bool) else normalize_to_list_of_substitutions(allow_substs)
-        )
+        self.allow_substs = allow_substs
 
     def evaluate(self, context: LaunchContext) -> Path:
         """The file's path in this context; with `allow_substs` that of a copy with the substitutions performed.
 
         Raises SubstitutionFailure if one of them has no value.
         """
-        path = Path(perform_substitutions(context, self.param_file))
+        path = Path(text_of(context, self.param_file))
         if not perform_text_as(context, self.allow_substs, bool) or not path.is_file():
             return path
-        text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
+        text = text_of(context, parse_substitution(path.read_text(encoding="utf-8")))
         return file_for_this_launch(self, path.name, text)
 
 
@@ -195,49 +170,40 @@ TYPES: dict[str, Any] = {
 """What the attribute `type` of a parameter can be."""
 
 
-def parameters(tag: str = "param") -> Reader:
+def parameters(entity: Entity) -> list[Any] | None:
     """What `Node(parameters=…)` takes, from nested tags: files first, then one dictionary with all others."""
-
-    def read(entity: Entity, parser: Parser) -> list[Any] | None:
-        found = tags(tag, _file_or_named)(entity, parser) or []
-        named = _merged([each for each in found if isinstance(each, dict)])
-        files = [each for each in found if isinstance(each, ParameterFile)]
-        return [*files, named] if named else files or None
-
-    return read
+    found = tags("param", _file_or_named)(entity) or []
+    named = {name: value for each in found if isinstance(each, dict) for name, value in each.items()}
+    files = [each for each in found if isinstance(each, ParameterFile)]
+    return [*files, named] if named else files
 
 
-def _file_or_named(param: Entity, parser: Parser) -> ParameterFile | dict[Any, Any]:
+def _file_or_named(param: Entity) -> ParameterFile | dict[Any, Any]:
     """What one tag stands for; the errors have the real texts."""
-    file, name = param.get_attr("from", optional=True), param.get_attr("name", optional=True)
+    file, name = attribute("from", optional=True)(param), param.get_attr("name", optional=True)
     if file is not None and name is not None:
         raise RuntimeError("name and from attributes are mutually exclusive")
     if name is not None:
-        return _named(param, parser)
+        return _named(param)
     if file is None:
         raise ValueError("param Entity should have name or from attribute")
-    allowed = typed("allow_substs", bool)(param, parser)
-    return ParameterFile(parser.parse_substitution(file), allow_substs=allowed or False)
+    return ParameterFile(file, allow_substs=attribute("allow_substs", bool, optional=True)(param) or False)
 
 
-def _named(param: Entity, parser: Parser) -> dict[Any, Any]:
+def _named(param: Entity) -> dict[Any, Any]:
     """A name with its value, or with nested names."""
-    name = tuple(text("name")(param, parser))
+    name = attribute("name")(param)
+    name = name if isinstance(name, str) else tuple(name)
     type_name = param.get_attr("type", optional=True)
     if type_name is not None and type_name not in TYPES:
         raise ValueError(f"Unexpected type attribute `{type_name}`. It must be one of {list(TYPES)}")
     kind = None if type_name is None else TYPES[type_name]
-    value = param.get_attr("value", data_type=kind, optional=True)
-    nested = tags("param", _named)(param, parser)
+    value = attribute("value", kind, optional=True)(param)
+    nested = tags("param", _named)(param)
     if value is not None and nested:
         raise RuntimeError("param and value attributes are mutually exclusive")
     if nested:
-        return {name: _merged(nested)}
+        return {name: {inner: value for each in nested for inner, value in each.items()}}
     if value is None:
         raise RuntimeError("either a value attribute or nested params are needed")
-    given = parser.parse_if_substitutions(value)
-    return {name: given if kind is None else ParameterValue(given, value_type=kind)}
-
-
-def _merged(dictionaries: list[dict[Any, Any]]) -> dict[Any, Any]:
-    return {name: value for each in dictionaries for name, value in each.items()}
+    return {name: value if kind is None else ParameterValue(value, value_type=kind)}

@@ -9,17 +9,13 @@ import yaml
 from launch import frontend
 from launch._entities import SomeSubstitutionsType, explained
 from launch._package import complete_package
-from launch.frontend import Entity as BaseEntity
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
-from launch.utilities import is_instance_of
+from launch.utilities import is_of_type
 
 from turtle_lesson.ros.runtime.bounded_yaml import BoundedLoader
 from turtle_lesson.ros.sim.errors import shown_path
 
-__all__ = ["Entity", "Parser"]
-
-
-KEYS = "key(s)"
+__all__ = ["Entity"]
 
 
 class Mapping(dict[Any, Any]):
@@ -30,52 +26,47 @@ class Mapping(dict[Any, Any]):
         self.lines: dict[Any, int] = {}
 
 
-class Entity(BaseEntity):
+class Entity(frontend.Entity):
     """An item: its name, and what stands below it, a mapping or a list of further items.
 
     YAML knows types, so a value must be of the one that is asked for.
     """
 
     @property
-    def children(self) -> list[BaseEntity]:
+    def children(self) -> list[frontend.Entity]:
         """The items below it: its list, or the list called `children` in its mapping."""
-        self._asked[KEYS].add("children")
-        below = self._element
-        if not isinstance(below, dict | list):
-            raise TypeError(f"Expected a dict or list, got {type(below)}")
-        if isinstance(below, dict):
-            if "children" not in below:
-                raise ValueError(
-                    f"Expected entity `{self.type_name}` to have children entities."
-                    "That can be a list of subentities or a dictionary with a `children` list element"
-                )
-            below = below["children"]
-        self._read[KEYS].add("children")
-        found: list[BaseEntity] = []
+        self._asked[self.TAGS].add("children")
+        given = self._given(self.TAGS)
+        if "children" not in given:
+            raise ValueError(
+                f"Expected entity `{self.type_name}` to have children entities."
+                "That can be a list of subentities or a dictionary with a `children` list element"
+            )
+        below = given["children"]
+        found: list[frontend.Entity] = []
         for item in below if isinstance(below, list) else [below]:
             if not isinstance(item, Mapping) or len(item) != 1:
                 error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
-                lines = list(item.lines.values()) if isinstance(item, Mapping) else []
-                raise explained(error, _hint(item), (self._file, lines[-1]) if lines else None)
+                hint = "Each item is a hyphen, the name of an action and a colon, as in - node:"
+                if isinstance(item, Mapping) and item:
+                    hint = f"Indent what belongs to {next(iter(item))} deeper than {next(iter(item))} itself."
+                    explained(error, place=(self._file, max(item.lines.values())))
+                raise explained(error, hint)
             [name] = item
             found.append(Entity(item[name], str(name), parent=self, line=item.lines.get(name)))
         return found
 
-    def assert_entity_completely_parsed(self) -> None:
-        """Check that every key in it was asked for, or the list that it is."""
-        if isinstance(self._element, list) and "children" not in self._read[KEYS]:
-            raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self._element}")
-        super().assert_entity_completely_parsed()
-
-    def _given(self) -> dict[str, Any]:
-        if not isinstance(self._element, dict | list | None):
+    def _given(self, kind: str) -> dict[Any, Any]:
+        if isinstance(self._element, list):
+            return {"children": self._element}
+        if not isinstance(self._element, dict | None):
             error = TypeError(f"Expected a dict or list, got {type(self._element)}")
             raise explained(error, f"Write the attributes of {self.type_name} below it, each on a line of its own.")
-        return {KEYS: self._element if isinstance(self._element, dict) else {}}
+        return self._element or {}
 
-    def _value(self, name: str, given: Any, data_type: Any, can_be_str: bool) -> Any:
-        value = given[name]
-        if not is_instance_of(value, data_type, can_be_str=can_be_str):
+    def _value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
+        value = self._element[name]
+        if not is_of_type(value, data_type, can_be_str):
             error = TypeError(
                 f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}', "
                 f"got '{type(value)}'"
@@ -84,46 +75,30 @@ class Entity(BaseEntity):
             raise explained(error, f'Put it into quotation marks: {name}: "{value}"' if is_plain else "")
         return value
 
-    def _nested(self, name: str, given: Any) -> list[BaseEntity]:
-        if not isinstance(given, list) or not all(isinstance(item, dict) for item in given):
+    def _nested(self, name: str, given: Any) -> list[frontend.Entity]:
+        if not isinstance(given, list) or not all(isinstance(item, Mapping) for item in given):
             error = TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
             raise explained(error, f"Begin each {name} with a hyphen.")
-        lines = [min(getattr(item, "lines", {}).values(), default=None) for item in given]
-        return [Entity(item, name, parent=self, line=line) for item, line in zip(given, lines, strict=True)]
+        return [Entity(item, name, parent=self, line=min(item.lines.values(), default=None)) for item in given]
 
 
-def _hint(item: Any) -> str:
-    if isinstance(item, dict) and len(item) > 1:
-        return f"Indent what belongs to {next(iter(item))!s} deeper than {next(iter(item))!s} itself."
-    return "Each item is a hyphen, the name of an action and a colon, as in - node:"
-
-
-class Parser(frontend.Parser):
-    """Reads YAML."""
-
-    @classmethod
-    def load_text(cls, text: str, name: str) -> tuple[Entity, Parser]:
-        """The root entity of a text. Raises yaml.YAMLError if it is no YAML, and RuntimeError for several roots."""
-        try:
-            tree = _tree(text, name)
-        except yaml.MarkedYAMLError as error:
-            mark = error.problem_mark
-            explained(error, _hint_for_syntax(error), None if mark is None else (name, mark.line + 1))
-            raise
-        if not isinstance(tree, Mapping) or len(tree) != 1:
-            hint = "The file begins with launch: and all actions are a list below it."
-            raise explained(RuntimeError("Expected only one root"), hint, (name, 1))
-        root = next(iter(tree))
-        return Entity(tree[root], str(root), file=name, line=tree.lines.get(root, 1)), cls()
-
-
-def _tree(text: str, name: str) -> Any:
+def read(text: str, name: str) -> Entity:
+    """The root tag of a text; `name` is the file's. Raises yaml.YAMLError if it is no YAML, RuntimeError for several roots."""
     loader = _Loader(text)
     loader.name = shown_path(name) or loader.name
     try:
-        return loader.get_single_data()
+        tree = loader.get_single_data()
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        explained(error, _hint(error), None if mark is None else (name, mark.line + 1))
+        raise
     finally:
         loader.dispose()
+    if not isinstance(tree, Mapping) or len(tree) != 1:
+        hint = "The file begins with launch: and all actions are a list below it."
+        raise explained(RuntimeError("Expected only one root"), hint, (name, 1))
+    [root] = tree
+    return Entity(tree[root], str(root), file=name, line=tree.lines.get(root, 1))
 
 
 class _Loader(BoundedLoader):
@@ -141,7 +116,7 @@ def _mapping(loader: _Loader, node: yaml.MappingNode) -> Iterator[Mapping]:
 _Loader.add_constructor("tag:yaml.org,2002:map", _mapping)
 
 
-def _hint_for_syntax(error: Any) -> str:
+def _hint(error: yaml.MarkedYAMLError) -> str:
     problem = str(error.problem or "")
     if "\\t" in problem:
         return "YAML is indented with spaces, never with tabs."
@@ -158,7 +133,7 @@ class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """Gets the description from an YAML launch file."""
 
     def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        super().__init__(launch_file_path, method="interpreted YAML launch file", parser=Parser)
+        super().__init__(launch_file_path, method="interpreted YAML launch file", read=read)
 
 
 complete_package("launch_yaml", {"launch_yaml.launch_description_sources": "YAMLLaunchDescriptionSource"})

@@ -9,92 +9,64 @@ from typing import Any, ClassVar
 from turtle_lesson.ros.ament import index
 from turtle_lesson.ros.ament.package import NotHereError
 
-from .._context import EventHandler, LaunchContext
+from .._context import LaunchContext
 from .._entities import (
     Action,
     LaunchDescription,
     LaunchDescriptionEntity,
     SomeSubstitutionsType,
-    described,
     explained,
+    text_of,
 )
-from .._tags import actions, pair, tags, text, typed
+from .._entities import normalize_to_list_of_substitutions as pieces
 from ..event_handlers import OnShutdown
-from ..events import TimerEvent
-from ..frontend import Entity, InvalidLaunchFileError, Parser, expose_action
+from ..frontend import Entity, InvalidLaunchFileError, actions, attribute, expose_action, pair, tags
 from ..launch_description_sources import AnyLaunchDescriptionSource, LaunchDescriptionSource
-from ..utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions, text_of
-from ._configuration import (
-    PopEnvironment,
-    PopLaunchConfigurations,
-    PushEnvironment,
-    PushLaunchConfigurations,
-    ResetEnvironment,
-    ResetLaunchConfigurations,
-    SetLaunchConfiguration,
-)
+from ..utilities import ensure_argument_type
+from ._configuration import SetLaunchConfiguration
 
 __all__ = ["GroupAction", "IncludeLaunchDescription", "OpaqueFunction", "TimerAction"]
+
+_SCOPED = ("launch_configurations", "environment")
 
 
 @expose_action("group")
 class GroupAction(Action):
-    """Gives its actions; in a scope, what they set is forgotten at the end.
-
-    The scope begins with what was set outside if it is `forwarding`, and with these launch configurations.
-    """
+    """Gives its actions; if it is scoped, what they set is forgotten at the end."""
 
     _tag: ClassVar = {
-        "scoped": typed("scoped", bool, can_be_str=False),
-        "forwarding": typed("forwarding", bool, can_be_str=False),
-        "launch_configurations": tags("keep", pair()),
-        "actions": actions(without=("keep",)),
+        "scoped": attribute("scoped", bool, optional=True, can_be_str=False),
+        "actions": actions,
     }
 
-    def __init__(
-        self,
-        actions: Iterable[Action],
-        *,
-        scoped: bool = True,
-        forwarding: bool = True,
-        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
-        **left_over_kwargs: Any,
-    ) -> None:
+    def __init__(self, actions: Iterable[Action], *, scoped: bool = True, **left_over_kwargs: Any) -> None:
         super().__init__(**left_over_kwargs)
         self.__actions = list(actions)
         self.__scoped = scoped
-        self.__forwarding = forwarding
-        self.__launch_configurations = dict(launch_configurations or {})
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives."""
         return self.get_sub_entities() if self.condition is None else []
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives if its condition holds."""
-        return [] if self.condition is None else [("if its condition holds", self.get_sub_entities())]
+        return [] if self.condition is None else self.get_sub_entities()
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Its actions, between those that begin and end the scope."""
-        sets = [SetLaunchConfiguration(name, value) for name, value in self.__launch_configurations.items()]
         if not self.__scoped:
-            return [*sets, *self.__actions]
-        begin: list[LaunchDescriptionEntity] = [PushLaunchConfigurations(), PushEnvironment()]
-        if self.__forwarding:
-            begin += sets
-        else:
-            begin += [ResetEnvironment(), ResetLaunchConfigurations(self.__launch_configurations)]
-        return [*begin, *self.__actions, PopEnvironment(), PopLaunchConfigurations()]
+            return [*self.__actions]
+        begin = OpaqueFunction(function=lambda context: context._push(*_SCOPED))
+        end = OpaqueFunction(function=lambda context: context._pop(*_SCOPED))
+        return [begin, *self.__actions, end]
 
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Give them."""
         return self.get_sub_entities()
 
 
 DEEPEST = 50
 """So many launch files may lie within one another."""
-
-_PLACES = ("current_launch_file_directory", "current_launch_file_path")
 
 
 class MissingLaunchArgumentError(RuntimeError):
@@ -105,16 +77,16 @@ class MissingLaunchArgumentError(RuntimeError):
         self.argument = argument
 
 
-def _given(entity: Entity, parser: Parser) -> list[Any]:
+def _given(entity: Entity) -> list[Any]:
     """The names and values of nested `arg` and `let` tags."""
-    return [each for tag in ("arg", "let") for each in tags(tag, pair())(entity, parser) or ()]
+    return [each for tag in ("arg", "let") for each in tags(tag, pair())(entity) or ()]
 
 
 @expose_action("include")
 class IncludeLaunchDescription(Action):
     """Includes a launch description; its arguments are given as pairs of name and value."""
 
-    _tag: ClassVar = {"launch_description_source": text("file"), "launch_arguments": _given}
+    _tag: ClassVar = {"launch_description_source": attribute("file"), "launch_arguments": _given}
 
     def __init__(
         self,
@@ -137,34 +109,40 @@ class IncludeLaunchDescription(Action):
         description = self.launch_description_source.try_get_launch_description_without_context()
         return [description] if description is not None else []
 
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Load the description, check its arguments, and give it.
 
         Raises NotHereError if it is one of a package that only robots have, or imports such a package.
         """
-        values = context.get_locals_as_dict()
-        places = {name: values[name] for name in _PLACES if name in values}
         description = self._load(context)
-        context._include_depth += 1
         path = os.path.abspath(self.launch_description_source.location)
-        if context._include_depth > DEEPEST:
-            error = RuntimeError("launch files include one another endlessly")
+        outer, depth = context.get_locals_as_dict().get("current_launch_file_path"), context._include_depth
+        if depth >= DEEPEST:
             name = os.path.basename(path)
-            error.add_note(f"{name} is included again and again: give the include a condition that ends it.")
-            raise error
-        context.extend_locals(
-            {"current_launch_file_directory": os.path.dirname(path), "current_launch_file_path": path}
-        )
-        self._check_arguments(description, context)
+            hint = f"{name} is included again and again: give the include a condition that ends it."
+            raise explained(RuntimeError("launch files include one another endlessly"), hint)
+        given = [text_of(context, name) for name, _ in self.launch_arguments]
+        for argument, includes in description.get_launch_arguments_with_include_launch_description_actions():
+            inner = [name for include in includes or [] for name, _ in include.launch_arguments]
+            known = [*given, *(name for name in inner if isinstance(name, str))]
+            needed = argument.default_value is None and not argument._conditionally_included
+            if needed and argument.name not in known:
+                raise MissingLaunchArgumentError(
+                    f"Included launch description missing required argument '{argument.name}' "
+                    f"(description: '{argument.description}'), given: [{', '.join(known)}]",
+                    argument.name,
+                )
 
-        def restore(context: LaunchContext) -> None:
-            context._include_depth -= 1
-            for name in _PLACES:
-                context._locals.pop(name, None)
-            context.extend_locals(places)
+        def within(context: LaunchContext, depth: int, path: str | None) -> None:
+            context._include_depth = depth
+            if path is None:
+                context._locals.pop("current_launch_file_path", None)
+            else:
+                context.extend_locals({"current_launch_file_path": path})
 
+        within(context, depth + 1, path)
         sets = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
-        return [*sets, description, OpaqueFunction(function=restore)]
+        return [*sets, description, OpaqueFunction(function=within, args=[depth, outer])]
 
     def _load(self, context: LaunchContext) -> LaunchDescription:
         source = self.launch_description_source
@@ -180,20 +158,6 @@ class IncludeLaunchDescription(Action):
                 raise NotHereError(os.path.basename(source.location), f"it imports {module}, and {why}") from None
             raise
 
-    def _check_arguments(self, description: LaunchDescription, context: LaunchContext) -> None:
-        given = [text_of(context, name) for name, _ in self.launch_arguments]
-        for argument, includes in description.get_launch_arguments_with_include_launch_description_actions():
-            if argument._conditionally_included or argument.default_value is not None:
-                continue
-            inner = [name for include in includes or [] for name, _ in include.launch_arguments]
-            known = [*given, *(name for name in inner if isinstance(name, str))]
-            if argument.name not in known:
-                raise MissingLaunchArgumentError(
-                    f"Included launch description missing required argument '{argument.name}' "
-                    f"(description: '{argument.description}'), given: [{', '.join(known)}]",
-                    argument.name,
-                )
-
 
 @expose_action("timer")
 class TimerAction(Action):
@@ -201,9 +165,9 @@ class TimerAction(Action):
 
     _completes_later = True
     _tag: ClassVar = {
-        "period": typed("period", float, optional=False),
-        "cancel_on_shutdown": typed("cancel_on_shutdown", bool),
-        "actions": actions(),
+        "period": attribute("period", float),
+        "cancel_on_shutdown": attribute("cancel_on_shutdown", bool, optional=True),
+        "actions": actions,
     }
 
     def __init__(
@@ -211,19 +175,19 @@ class TimerAction(Action):
         *,
         period: float | SomeSubstitutionsType,
         actions: Iterable[LaunchDescriptionEntity],
-        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
+        cancel_on_shutdown: bool = True,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
         ensure_argument_type(actions, Iterable, "actions", "TimerAction")
-        self.period = normalize_to_list_of_substitutions(str(period) if isinstance(period, int | float) else period)
+        self.period = pieces(str(period) if isinstance(period, int | float) else period)
         self.actions = list(actions)
-        self.__cancel_on_shutdown = str(cancel_on_shutdown).lower() not in {"false", "0"}
+        self.__cancel_on_shutdown = cancel_on_shutdown
         self.__cancelled = False
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+    def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives when its time is over."""
-        return [(f"{described(self.period)} seconds pass without being canceled", self.actions)]
+        return self.actions
 
     def cancel(self) -> None:
         """Do not do it after all."""
@@ -231,22 +195,19 @@ class TimerAction(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Begin to wait."""
-        if self.__cancelled or context._host is None:
+        host = context._host
+        if self.__cancelled or host is None:
             return
-        seconds = float(perform_substitutions(context, self.period))
         if self.__cancel_on_shutdown:
             context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: self.cancel()))
-        context._host.call_later(seconds, lambda: self._time_is_over(context))
 
-    def _time_is_over(self, context: LaunchContext) -> None:
-        if not self.__cancelled:
-            handler = EventHandler(matcher=self._is_mine, entities=self.actions, handle_once=True)
-            context.register_event_handler(handler)
-            context.emit_event_sync(TimerEvent(timer_action=self))
-            self._complete(context)
+        def time_is_over() -> None:
+            if not self.__cancelled:
+                for each in self.actions:
+                    host.visit(each)
+                self._complete(context)
 
-    def _is_mine(self, event: object) -> bool:
-        return isinstance(event, TimerEvent) and event.timer_action is self
+        host.call_later(float(text_of(context, self.period)), time_is_over)
 
 
 class OpaqueFunction(Action):

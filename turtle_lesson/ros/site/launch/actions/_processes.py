@@ -1,7 +1,8 @@
-"""Actions that run programs: `ExecuteLocal` and `ExecuteProcess`."""
+"""`ExecuteProcess`, which runs a program."""
 
 from __future__ import annotations
 
+import os
 import shlex
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -11,16 +12,22 @@ from typing import Any, ClassVar
 from turtle_lesson.ros import hooks
 
 from .._context import LaunchContext, Reaction
-from .._entities import Action, LaunchDescriptionEntity, SomeSubstitutionsType, Substitution
-from .._tags import Reader, pair, tags, text, typed
+from .._entities import (
+    Action,
+    LaunchDescriptionEntity,
+    SomeSubstitutionsType,
+    Substitution,
+    TextSubstitution,
+    explained,
+    text_of,
+)
+from .._entities import normalize_to_list_of_substitutions as pieces
 from ..conditions import evaluate_condition_expression
-from ..descriptions import Environment, Executable
 from ..event_handlers import OnProcessExit
-from ..frontend import Entity, Parser, expose_action
-from ..substitutions import LaunchConfiguration, TextSubstitution
-from ..utilities import normalize_to_list_of_substitutions, perform_substitutions
+from ..frontend import Entity, Reader, attribute, expose_action, pair, tags
+from ..substitutions import LaunchConfiguration
 
-__all__ = ["ExecuteLocal", "ExecuteProcess"]
+__all__ = ["ExecuteProcess"]
 
 SCREEN = {
     "screen": {"stdout", "stderr"},
@@ -42,168 +49,62 @@ class Program:
     shown: str
 
 
-class ExecuteLocal(Action):
-    """Base of the actions that run a program: here a node, a `ros2` command or a Python file."""
-
-    _completes_later = True
-
-    def __init__(
-        self,
-        *,
-        process_description: Executable,
-        shell: bool = False,
-        sigterm_timeout: SomeSubstitutionsType = LaunchConfiguration("sigterm_timeout", default=5),  # noqa: B008
-        sigkill_timeout: SomeSubstitutionsType = LaunchConfiguration("sigkill_timeout", default=5),  # noqa: B008
-        emulate_tty: bool = False,
-        output: SomeSubstitutionsType | Mapping[str, str | Iterable[str]] = "log",
-        output_format: str = "[{this.process_description.final_name}] {line}",
-        cached_output: bool = False,
-        log_cmd: bool = False,
-        on_exit: Reaction = None,
-        respawn: bool | SomeSubstitutionsType = False,
-        respawn_delay: float | None = None,
-        respawn_max_retries: int = -1,
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(**kwargs)
-        self.process_description = process_description
-        self.shell = shell
-        self.sigterm_timeout = normalize_to_list_of_substitutions(sigterm_timeout)
-        self.sigkill_timeout = normalize_to_list_of_substitutions(sigkill_timeout)
-        self.emulate_tty = emulate_tty
-        self.output = output if isinstance(output, Mapping) else normalize_to_list_of_substitutions(output)
-        self.output_format = output_format
-        self.__on_exit = on_exit
-        self.__respawn = normalize_to_list_of_substitutions(str(respawn) if isinstance(respawn, bool) else respawn)
-        self.respawn_delay = respawn_delay
-        self.respawn_max_retries = respawn_max_retries
-        self.process_details: dict[str, Any] | None = None
-        self.return_code: int | None = None
-        self.prefix_left_out = ""
-        self._program: Program | None = None
-        self._respawns = False
-        self._on_screen: set[str] = set()
-
-    def prepare(self, context: LaunchContext) -> None:
-        """Make everything text that was not yet."""
-        description = self.process_description
-        before = perform_substitutions(context, description.prefix or []).split()
-        self.prefix_left_out = PurePath(before[0]).name if before else ""  # such as a terminal or a debugger
-        description.prepare(context, self)
-        self._program = self._find_program(context)
-        self._respawns = evaluate_condition_expression(context, self.__respawn)
-        override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
-        self._on_screen = _on_screen(context, [TextSubstitution(text=override)] if override else self.output)
-        self.process_details = {
-            "action": self,
-            "name": description.final_name,
-            "cmd": self._program.argv,
-            "cwd": description.final_cwd,
-            "env": description.final_env,
-        }
-
-    def _find_program(self, context: LaunchContext) -> Program:
-        """What to run: a command of the simulation, unless a subclass knows better.
-
-        Raises UnknownCommand if there is none of this name here.
-        """
-        return hooks.program_of_command(self.process_description.final_cmd, shell=self.shell)
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Have the process started."""
-        self.prepare(context)
-        if context.is_shutdown or context._host is None:
-            return None
-        if self.__on_exit is not None:
-            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
-        context._host.start_process(self)
-        return None
-
-    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
-        """What it gives when its process ends."""
-        if self.__on_exit is None or callable(self.__on_exit):
-            return []
-        return [OnProcessExit(target_action=self, on_exit=self.__on_exit).describe()]
-
-
-def _on_screen(context: LaunchContext, output: Any) -> set[str]:
-    """Which of `stdout` and `stderr` reach the screen. Raises ValueError for an unknown value of `output`."""
-    if isinstance(output, Mapping):
-        shown: set[str] = set()
-        for name, where in output.items():
-            if name not in {"stdout", "stderr", "both"}:
-                raise ValueError(f'{name} is not a valid output source i.e. "stdout", "stderr" or "both"')
-            if "screen" in ({where} if isinstance(where, str) else set(where)):
-                shown |= {"stdout", "stderr"} if name == "both" else {name}
-        return shown
-    value = perform_substitutions(context, output)
-    if value not in SCREEN:
-        raise ValueError(f'{value} is not a valid standard output config i.e. "screen", "log" or "both"')
-    return SCREEN[value]
-
-
-def words_in(pieces: Iterable[Substitution]) -> list[list[Substitution]]:
+def words_in(text: Iterable[Substitution]) -> list[list[Substitution]]:
     """The words of a text; a substitution belongs to the text that it touches, and is never taken apart."""
-    words: list[list[Substitution]] = []
-    word: list[Substitution] = []
-    for piece in pieces:
+    words: list[list[Substitution]] = [[]]
+    for piece in text:
         if not isinstance(piece, TextSubstitution):
-            word.append(piece)
+            words[-1].append(piece)
             continue
-        text = piece.text
-        if text[:1].isspace() and word:
-            words.append(word)
-            word = []
-        for number, token in enumerate(shlex.split(text)):
+        if piece.text[:1].isspace():
+            words.append([])
+        for number, word in enumerate(shlex.split(piece.text)):
             if number > 0:
-                words.append(word)
-                word = []
-            word.append(TextSubstitution(text=token))
-        if text[-1:].isspace() and word:
-            words.append(word)
-            word = []
-    return [*words, word] if word else words
+                words.append([])
+            words[-1].append(TextSubstitution(text=word))
+        if piece.text[-1:].isspace():
+            words.append([])
+    return [word for word in words if word]
 
 
 def command_line(name: str, *, optional: bool = False) -> Reader:
     """An attribute that is the words of a command, written as one text."""
-    read_text = text(name, optional=optional)
+    read_text = attribute(name, optional=optional)
 
-    def read(entity: Entity, parser: Parser) -> list[list[Substitution]] | None:
-        pieces = read_text(entity, parser)
-        return None if pieces is None else words_in(pieces)
+    def read(entity: Entity) -> list[list[Substitution]] | None:
+        text = read_text(entity)
+        return None if text is None else words_in(pieces(text))
 
     return read
 
 
-def _delay(entity: Entity, parser: Parser) -> float | None:
-    delay = entity.get_attr("respawn_delay", data_type=float, optional=True, can_be_str=False)
-    if delay is not None and delay < 0.0:
-        raise ValueError(
-            f"Attribute respawn_delay of Entity node expected to be a non-negative value but got `{delay}`"
-        )
-    return delay
+Environment = (
+    Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
+    | Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
+)
+
+
+def _variables(context: LaunchContext, given: Environment) -> dict[str, str]:
+    pairs = given.items() if isinstance(given, Mapping) else given
+    return {text_of(context, name): text_of(context, value) for name, value in pairs}
 
 
 @expose_action("executable")
-class ExecuteProcess(ExecuteLocal):
-    """Runs the words of a command."""
+class ExecuteProcess(Action):
+    """Runs the words of a command: here a `ros2` command, a Python file, or a small one such as `echo`."""
 
+    _completes_later = True
     _tag: ClassVar = {
         "cmd": command_line("cmd"),
-        "cwd": text("cwd", optional=True),
-        "name": text("name", optional=True),
-        "prefix": text("launch-prefix", optional=True),
-        "output": text("output", optional=True),
-        "sigkill_timeout": text("sigkill_timeout", optional=True),
-        "sigterm_timeout": text("sigterm_timeout", optional=True),
-        "respawn": typed("respawn", bool),
-        "respawn_delay": _delay,
-        "respawn_max_retries": typed("respawn_max_retries", int, can_be_str=False),
-        "shell": typed("shell", bool, can_be_str=False),
-        "emulate_tty": typed("emulate_tty", bool, can_be_str=False),
-        "cached_output": typed("cached_output", bool, can_be_str=False),
-        "log_cmd": typed("log_cmd", bool, can_be_str=False),
+        **{
+            name: attribute(name, optional=True)
+            for name in ("cwd", "name", "output", "sigkill_timeout", "sigterm_timeout")
+        },
+        "prefix": attribute("launch-prefix", optional=True),
+        "respawn": attribute("respawn", bool, optional=True),
+        "respawn_delay": attribute("respawn_delay", float, optional=True, can_be_str=False),
+        "respawn_max_retries": attribute("respawn_max_retries", int, optional=True, can_be_str=False),
+        **{name: attribute(name, bool, optional=True, can_be_str=False) for name in ("shell", "emulate_tty")},
         "additional_env": tags("env", pair()),
     }
 
@@ -216,17 +117,104 @@ class ExecuteProcess(ExecuteLocal):
         cwd: SomeSubstitutionsType | None = None,
         env: Environment | None = None,
         additional_env: Environment | None = None,
+        shell: bool = False,
+        sigterm_timeout: SomeSubstitutionsType = LaunchConfiguration("sigterm_timeout", default=5),  # noqa: B008
+        sigkill_timeout: SomeSubstitutionsType = LaunchConfiguration("sigkill_timeout", default=5),  # noqa: B008
+        emulate_tty: bool = False,
+        output: SomeSubstitutionsType | Mapping[str, str | Iterable[str]] = "log",
+        output_format: str = "[{this.name}] {line}",
+        log_cmd: bool = False,
+        on_exit: Reaction = None,
+        respawn: bool | SomeSubstitutionsType = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: int = -1,
         **kwargs: Any,
     ) -> None:
-        executable = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
-        super().__init__(process_description=executable, **kwargs)
+        super().__init__(**kwargs)
+        if isinstance(cmd, str):
+            error = TypeError(f"ExecuteProcess expected a list for 'cmd', got {cmd!r}")
+            raise explained(error, "Write cmd=['ros2', 'topic', 'list'], or cmd=['ros2 topic list'] with shell=True.")
+        self._words = [pieces(word) for word in cmd]
+        self._prefix = pieces(prefix or "")
+        self._name = pieces(name or "")
+        self._env = env
+        self._additional_env = additional_env or {}
+        self.cwd = cwd
+        self.shell = shell
+        self.sigterm_timeout = pieces(sigterm_timeout)
+        self.output = output if isinstance(output, Mapping) else pieces(output)
+        self.output_format = output_format
+        self.__on_exit = on_exit
+        self.__respawn = pieces(str(respawn) if isinstance(respawn, bool) else respawn)
+        self.respawn_delay = respawn_delay
+        self.respawn_max_retries = respawn_max_retries
+        self.cmd: list[str] = []
+        """The command's words; known when it is run."""
+        self.name = ""
+        """What the process is called in the output, such as `navigator-1`; known when it is run."""
+        self.process_details: dict[str, Any] = {}
+        self.return_code: int | None = None
+        self.prefix_left_out = ""
+        self._program: Program | None = None
+        self._respawns = False
+        self._on_screen: set[str] = set()
 
-    @property
-    def cmd(self) -> list[list[Substitution]] | list[str]:
-        """The command's words; text once it is being run."""
-        return self.process_description.final_cmd or self.process_description.cmd
+    def prepare(self, context: LaunchContext) -> None:
+        """Make everything text that was not yet; name the process after its program, with a number."""
+        if not self._words:
+            error = ValueError("ExecuteProcess expected a command in 'cmd', got none")
+            raise explained(error, "Write its words in a list, as in cmd=['ros2', 'topic', 'list'].")
+        before = text_of(context, self._prefix).split()
+        self.prefix_left_out = PurePath(before[0]).name if before else ""  # such as a terminal or a debugger
+        self.cmd = [text_of(context, word) for word in self._words]
+        number = next(context._host.numbers) if context._host is not None else 1
+        self.name = f"{text_of(context, self._name) or os.path.basename(self.cmd[0])}-{number}"
+        alone = context.environment if self._env is None else _variables(context, self._env)
+        self._program = self._find_program(context)
+        self._respawns = evaluate_condition_expression(context, self.__respawn)
+        override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
+        self._on_screen = _on_screen(context, override or self.output)
+        self.process_details = {
+            "action": self,
+            "name": self.name,
+            "cmd": self._program.argv,
+            "cwd": None if self.cwd is None else text_of(context, self.cwd),
+            "env": {**alone, **_variables(context, self._additional_env)},
+        }
 
-    @property
-    def name(self) -> str | list[Substitution] | None:
-        """The process's name; text once it is being run."""
-        return self.process_description.final_name or self.process_description.name
+    def _find_program(self, context: LaunchContext) -> Program:
+        """What to run: a command of the simulation, unless a subclass knows better.
+
+        Raises UnknownCommand if there is none of this name here.
+        """
+        return hooks.program_of_command(self.cmd, shell=self.shell)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Have the process started."""
+        self.prepare(context)
+        if context.is_shutdown or context._host is None:
+            return None
+        if self.__on_exit is not None:
+            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+        context._host.start_process(self)
+        return None
+
+    def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """What it gives when its process ends."""
+        return OnProcessExit(target_action=self, on_exit=self.__on_exit).entities
+
+
+def _on_screen(context: LaunchContext, output: SomeSubstitutionsType | Mapping[str, str | Iterable[str]]) -> set[str]:
+    """Which of `stdout` and `stderr` reach the screen. Raises ValueError for an unknown value of `output`."""
+    if isinstance(output, Mapping):
+        shown: set[str] = set()
+        for name, where in output.items():
+            if name not in {"stdout", "stderr", "both"}:
+                raise ValueError(f'{name} is not a valid output source i.e. "stdout", "stderr" or "both"')
+            if "screen" in ({where} if isinstance(where, str) else set(where)):
+                shown |= {"stdout", "stderr"} if name == "both" else {name}
+        return shown
+    value = text_of(context, output)
+    if value not in SCREEN:
+        raise ValueError(f'{value} is not a valid standard output config i.e. "screen", "log" or "both"')
+    return SCREEN[value]

@@ -9,9 +9,8 @@ from .._context import Event
 
 if TYPE_CHECKING:
     from .._entities import Action, LaunchDescription
-    from ..actions import TimerAction
 
-__all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "TimerEvent", "matches_action"]
+__all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "matches_action"]
 
 
 class Shutdown(Event):
@@ -20,13 +19,6 @@ class Shutdown(Event):
     def __init__(self, *, reason: str = "reason not given", due_to_sigint: bool = False, **kwargs: object) -> None:
         self.reason = reason
         self.due_to_sigint = due_to_sigint
-
-
-class TimerEvent(Event):
-    """A TimerAction's time is over."""
-
-    def __init__(self, *, timer_action: TimerAction) -> None:
-        self.timer_action = timer_action
 
 
 class ExecutionComplete(Event):

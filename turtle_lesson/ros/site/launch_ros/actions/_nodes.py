@@ -9,29 +9,20 @@ from pathlib import Path
 from typing import Any, ClassVar, NoReturn
 
 import yaml
-from launch import Action, LaunchContext, LaunchDescriptionEntity, logging
-from launch._entities import SomeSubstitutionsType, Substitution
-from launch._tags import Reader, pair, tags, text
+from launch import Action, Condition, LaunchContext, LaunchDescriptionEntity, logging
+from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
 from launch.actions import ExecuteProcess
 from launch.actions._processes import Program, command_line
-from launch.frontend import Entity, Parser, expose_action
+from launch.frontend import anything, attribute, expose_action, pair, tags
 from launch.substitutions import SubstitutionFailure
-from launch.utilities import ensure_argument_type, text_of
+from launch.utilities import ensure_argument_type
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 
 from turtle_lesson.ros.ament.package import NotHereError
 from turtle_lesson.ros.sim.errors import shown_path
 
-from ..descriptions import ComposableNode
-from ..parameter_descriptions import (
-    Parameter,
-    ParameterFile,
-    as_argument,
-    file_for_this_launch,
-    parameters,
-    parameters_in,
-)
+from ..parameter_descriptions import ParameterFile, as_argument, file_for_this_launch, parameters, parameters_in
 from ..substitutions import ExecutableInPackage
 
 __all__ = ["ComposableNodeContainer", "LoadComposableNodes", "Node"]
@@ -70,12 +61,12 @@ class Node(ExecuteProcess):
         **{name: read for name, read in ExecuteProcess._tag.items() if name != "cmd"},
         "arguments": command_line("args", optional=True),
         "ros_arguments": command_line("ros_args", optional=True),
-        "executable": text("exec"),
-        "package": text("pkg", optional=True),
-        "namespace": text("namespace", optional=True),
-        "exec_name": text("exec_name", optional=True),
+        "executable": attribute("exec"),
+        "package": attribute("pkg", optional=True),
+        "namespace": attribute("namespace", optional=True),
+        "exec_name": attribute("exec_name", optional=True),
         "remappings": tags("remap", pair("from", "to")),
-        "parameters": parameters(),
+        "parameters": parameters,
     }
 
     def __init__(
@@ -94,31 +85,31 @@ class Node(ExecuteProcess):
     ) -> None:
         if parameters is not None:
             ensure_argument_type(parameters, list, "parameters", "Node")
+        for name_given, words in (("arguments", arguments), ("ros_arguments", ros_arguments)):
+            if isinstance(words, str | Substitution):
+                raise TypeError(
+                    f"Node expected a list for '{name_given}', got {words!r}; write {name_given}=[{words!r}]"
+                )
         self.__in_package = None if package is None else ExecutableInPackage(executable, package)
-        program: SomeSubstitutionsType = executable if self.__in_package is None else self.__in_package
-        words = [
-            program,
-            *_words(arguments, "arguments"),
-            "--ros-args",
-            *_words(ros_arguments, "ros_arguments"),
-        ]
-        super().__init__(cmd=words, name=exec_name, **kwargs)
+        program = self.__in_package or executable
+        super().__init__(
+            cmd=[program, *(arguments or []), "--ros-args", *(ros_arguments or [])], name=exec_name, **kwargs
+        )
         self.node_package = package
         self.node_executable = executable
         self.__node_name = name
         self.__namespace = namespace
-        self.__parameters = [] if parameters is None else list(parameters)
-        self.__remappings = _pairs(remappings)
-        self.expanded_node_name = self.UNSPECIFIED_NODE_NAME
-        self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
-        self.expanded_remapping_rules: list[tuple[str, str]] = []
+        self.__parameters = parameters or []
+        self.__remappings = list(remappings or [])
+        for rule in self.__remappings:
+            if isinstance(rule, str) or not isinstance(rule, Sequence) or len(rule) != 2:
+                raise TypeError(
+                    f"Node expected 'remappings' to be a list of pairs, got {rule!r} in it; "
+                    "write remappings=[('/from', '/to')]"
+                )
+        self.expanded_node_name = "<node_name_unspecified>"
+        self.expanded_node_namespace = "<node_namespace_unspecified>"
         self._ros_words: list[str] = []
-
-    def is_node_name_fully_specified(self) -> bool:
-        """Whether the launch file has decided name and namespace; known when the node has been started."""
-        return (
-            self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
-        )
 
     @property
     def node_name(self) -> str:
@@ -134,8 +125,7 @@ class Node(ExecuteProcess):
             self.__in_package.target(context)
         self._ros_words = [*self._name_words(context), *self._parameter_words(context)]
         own = [(text_of(context, source), text_of(context, target)) for source, target in self.__remappings]
-        self.expanded_remapping_rules = [*context.launch_configurations.get("ros_remaps", []), *own]
-        for source, target in self.expanded_remapping_rules:
+        for source, target in [*context.launch_configurations.get("ros_remaps", []), *own]:
             self._ros_words += ["-r", f"{source}:={target}"]
         return super().execute(context)
 
@@ -170,8 +160,6 @@ class Node(ExecuteProcess):
             elif isinstance(entry, Mapping):
                 for name, value in parameters_in(context, entry):
                     words += self._words_for(name, value)
-            elif isinstance(entry, Parameter):
-                words += self._words_for(*entry.evaluate(context))
             else:
                 words += ["--params-file", str(_parameter_file(context, entry))]
         return words
@@ -184,7 +172,7 @@ class Node(ExecuteProcess):
         return ["--params-file", str(file_for_this_launch(self, "parameter.yaml", text))]
 
     def _find_program(self, context: LaunchContext) -> Program:
-        argv = [*self.process_description.final_cmd, *self._ros_words]
+        argv = [*self.cmd, *self._ros_words]
         # a file made for this launch lies elsewhere in every run
         words = [re.sub(r".*/launch_params_\w+/", "launch_params/", word) for word in argv[1:] if word.strip()]
         shown = " ".join([shown_path(argv[0]), *words])
@@ -192,26 +180,9 @@ class Node(ExecuteProcess):
             return Program(self.__in_package.target(context), argv, shown)
         path = Path(argv[0])
         if not path.is_file():
-            hint = "Did you leave package='…' out?"
-            raise SubstitutionFailure(f"executable '{argv[0]}' is not a file", hint)
+            error = SubstitutionFailure(f"executable '{argv[0]}' is not a file")
+            raise explained(error, "Did you leave package='…' out?")
         return Program(path.resolve(), argv, shown)
-
-
-def _words(words: Iterable[SomeSubstitutionsType] | None, name: str) -> list[SomeSubstitutionsType]:
-    if isinstance(words, str | Substitution):
-        raise TypeError(f"Node expected a list for '{name}', got {words!r}; write {name}=[{words!r}]")
-    return list(words or [])
-
-
-def _pairs(remappings: Iterable[Remapping] | None) -> list[Remapping]:
-    pairs = list(remappings or [])
-    for rule in pairs:
-        if isinstance(rule, str) or not isinstance(rule, Sequence) or len(rule) != 2:
-            raise TypeError(
-                f"Node expected 'remappings' to be a list of pairs, got {rule!r} in it; "
-                "write remappings=[('/from', '/to')]"
-            )
-    return pairs
 
 
 def _parameter_file(context: LaunchContext, entry: Any) -> Path:
@@ -225,24 +196,13 @@ def _parameter_file(context: LaunchContext, entry: Any) -> Path:
     return path
 
 
-def _composable(tag: Entity, parser: Parser) -> ComposableNode:
-    """The C++ node of a `composable_node` tag."""
-    readers: dict[str, Reader] = {
-        "package": text("pkg"),
-        "plugin": text("plugin"),
-        "name": text("name", optional=True),
-        "namespace": text("namespace", optional=True),
-        "parameters": parameters(),
-        "remappings": tags("remap", pair("from", "to")),
-        "extra_arguments": parameters("extra_arg"),
-    }
-    for condition in ("if", "unless"):
-        tag.get_attr(condition, optional=True)
-    return ComposableNode(**{name: read(tag, parser) for name, read in readers.items()})
+class _OfComponents(Action):
+    """What has to do with composable nodes. It takes anything, and a launch leaves it out."""
 
+    _tag: ClassVar = {"described": anything}
 
-class _LeftOut(Action):
-    """An action that only a robot can carry out."""
+    def __init__(self, *, condition: Condition | None = None, **described: Any) -> None:
+        super().__init__(condition=condition)
 
     def execute(self, context: LaunchContext) -> NoReturn:
         """Have it left out. Always raises NotHereError."""
@@ -251,39 +211,10 @@ class _LeftOut(Action):
 
 
 @expose_action("node_container")
-class ComposableNodeContainer(_LeftOut, Node):
-    """A process that loads C++ nodes; a launch leaves it out."""
-
-    _tag: ClassVar = {**Node._tag, "composable_node_descriptions": tags("composable_node", _composable)}
-
-    def __init__(
-        self,
-        *,
-        name: SomeSubstitutionsType,
-        namespace: SomeSubstitutionsType,
-        composable_node_descriptions: Iterable[ComposableNode] | None = None,
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(name=name, namespace=namespace, **kwargs)
-        self.composable_node_descriptions = list(composable_node_descriptions or [])
+class ComposableNodeContainer(_OfComponents):
+    """A process that loads C++ nodes."""
 
 
 @expose_action("load_composable_node")
-class LoadComposableNodes(_LeftOut):
-    """Loads C++ nodes into a container; a launch leaves it out."""
-
-    _tag: ClassVar = {
-        "target_container": text("target"),
-        "composable_node_descriptions": tags("composable_node", _composable),
-    }
-
-    def __init__(
-        self,
-        *,
-        composable_node_descriptions: Iterable[ComposableNode],
-        target_container: SomeSubstitutionsType | ComposableNodeContainer,
-        **kwargs: Any,
-    ) -> None:
-        super().__init__(**kwargs)
-        self.composable_node_descriptions = list(composable_node_descriptions)
-        self.target_container = target_container
+class LoadComposableNodes(_OfComponents):
+    """Loads C++ nodes into a container."""

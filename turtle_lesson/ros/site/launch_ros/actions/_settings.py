@@ -1,4 +1,4 @@
-"""Actions that hold for all nodes that follow: parameters, remappings, namespaces; and `RosTimer`."""
+"""Actions that hold for all nodes that follow: parameters, remappings and namespaces."""
 
 from __future__ import annotations
 
@@ -6,61 +6,38 @@ from os import PathLike
 from typing import Any, ClassVar
 
 from launch import Action, LaunchContext
-from launch._entities import SomeSubstitutionsType
-from launch._tags import text, typed
-from launch.actions import TimerAction
-from launch.frontend import expose_action
-from launch.utilities import normalize_to_list_of_substitutions as pieces
-from launch.utilities import perform_substitutions
+from launch._entities import SomeSubstitutionsType, text_of
+from launch._entities import normalize_to_list_of_substitutions as pieces
+from launch.frontend import attribute, expose_action
 from rclpy.validate_namespace import validate_namespace
 
 from ..parameter_descriptions import ParameterFile
 from ._nodes import in_namespace
 
-__all__ = [
-    "PushROSNamespace",
-    "PushRosNamespace",
-    "ROSTimer",
-    "RosTimer",
-    "SetParameter",
-    "SetParametersFromFile",
-    "SetRemap",
-    "SetUseSimTime",
-]
+__all__ = ["PushROSNamespace", "PushRosNamespace", "SetParameter", "SetParametersFromFile", "SetRemap"]
 
 
 @expose_action("set_parameter")
 class SetParameter(Action):
     """Gives a parameter to every node that is started from here on in the same group."""
 
-    _tag: ClassVar = {"name": text("name"), "value": typed("value", None, optional=False)}
+    _tag: ClassVar = {"name": attribute("name"), "value": attribute("value", None)}
 
     def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self.name = name
+        self.name = pieces(name)
         self.value = value
 
     def execute(self, context: LaunchContext) -> None:
         """Remember it."""
-        name = self.name if isinstance(self.name, str) else tuple(pieces(self.name))
-        _append(context, "global_params", {name: self.value})
-
-
-@expose_action("set_use_sim_time")
-class SetUseSimTime(SetParameter):
-    """Has every node that is started from here on use simulated time, or not."""
-
-    _tag: ClassVar = {"value": typed("value", bool, optional=False)}
-
-    def __init__(self, value: bool | SomeSubstitutionsType, **kwargs: Any) -> None:
-        super().__init__("use_sim_time", value, **kwargs)
+        _append(context, "global_params", {text_of(context, self.name): self.value})
 
 
 @expose_action("set_parameters_from_file")
 class SetParametersFromFile(Action):
     """Gives a file of parameters to every node that is started from here on in the same group."""
 
-    _tag: ClassVar = {"filename": text("filename"), "node_name": text("node", optional=True)}
+    _tag: ClassVar = {"filename": attribute("filename"), "node_name": attribute("node", optional=True)}
 
     def __init__(
         self,
@@ -75,7 +52,7 @@ class SetParametersFromFile(Action):
     def execute(self, context: LaunchContext) -> None:
         """Remember it."""
         path = self.__file.evaluate(context)
-        name = None if self.__node_name is None else perform_substitutions(context, self.__node_name)
+        name = None if self.__node_name is None else text_of(context, self.__node_name)
         _append(context, "global_params", path if name is None else (name, path))
 
 
@@ -83,7 +60,7 @@ class SetParametersFromFile(Action):
 class SetRemap(Action):
     """Gives a remapping to every node that is started from here on in the same group."""
 
-    _tag: ClassVar = {"src": text("from"), "dst": text("to")}
+    _tag: ClassVar = {"src": attribute("from"), "dst": attribute("to")}
 
     def __init__(self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -91,8 +68,7 @@ class SetRemap(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Remember it."""
-        pair = (perform_substitutions(context, self.src), perform_substitutions(context, self.dst))
-        _append(context, "ros_remaps", pair)
+        _append(context, "ros_remaps", (text_of(context, self.src), text_of(context, self.dst)))
 
 
 def _append(context: LaunchContext, name: str, entry: Any) -> None:
@@ -105,7 +81,7 @@ def _append(context: LaunchContext, name: str, entry: Any) -> None:
 class PushRosNamespace(Action):
     """Has nodes start in a namespace, to the end of the group that it stands in."""
 
-    _tag: ClassVar = {"namespace": text("namespace")}
+    _tag: ClassVar = {"namespace": attribute("namespace")}
 
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -113,18 +89,10 @@ class PushRosNamespace(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Push it. Raises InvalidNamespaceException if it is not allowed."""
-        namespace = in_namespace(context, perform_substitutions(context, self.__namespace))
+        namespace = in_namespace(context, text_of(context, self.__namespace))
         if namespace is not None:
             validate_namespace(namespace)
             context.launch_configurations["ros_namespace"] = namespace
 
 
 PushROSNamespace = PushRosNamespace
-
-
-@expose_action("ros_timer")
-class RosTimer(TimerAction):
-    """As `TimerAction`: here both go by robot time, also where a node publishes `/clock`."""
-
-
-ROSTimer = RosTimer
