@@ -1,8 +1,7 @@
 """The data files of a bag, read as far as they can be read: a damaged one up to the damage, and no further.
 
 Facts: https://mcap.dev/spec, and rosbag2_storage_sqlite3's sqlite_storage.cpp (tables `topics` and `messages`, and a newer one
-for definitions). Of a damaged MCAP file, chunks whose checksum is wrong are left out. Compressed data is unpacked up to a
-limit, since a few kilobytes can stand for gigabytes: recordings of robots hardly ever shrink to a hundredth.
+for definitions). Of a damaged MCAP file, chunks whose checksum is wrong are left out.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import sys
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,12 +29,6 @@ HEAD = struct.Struct("<BQ")
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 CHUNK_HEAD = struct.Struct("<QQQI")
 LARGEST = 1 << 32
-
-MOST_TIMES = 100
-"""How many times its size compressed data may become."""
-
-ALWAYS = 64 << 20
-"""How many bytes it may become in any case."""
 
 Where = tuple[int, ...]
 """Where in a file a message is."""
@@ -88,16 +81,6 @@ class Contents:
         topic.count += 1
         self.entries.append((time, topic, file, where))
 
-    def add(self, other: Contents) -> None:
-        """Take in what another file of the same bag holds."""
-        for topic in other.topics.values():
-            mine = self.known(replace(topic, count=0))
-            mine.count += topic.count
-        self.entries += other.entries
-        known = self.expected is not None and other.expected is not None
-        self.expected = (self.expected or 0) + (other.expected or 0) if known else None
-        self.flaws += other.flaws
-
 
 class _Spoiled(Exception):
     """A part of the file makes no sense."""
@@ -106,17 +89,21 @@ class _Spoiled(Exception):
 @contextmanager
 def scanned(files: list[Path]) -> Iterator[Contents]:
     """What all files of a bag hold, with the messages in the order of their times; the files are open meanwhile."""
-    total = Contents(expected=0)
+    contents = Contents()
+    counts: list[int | None] = []
     with ExitStack() as stack:
         for file in files:
             try:
-                data_file = DATA_FILES[file.suffix](file)
+                data_file = DATA_FILES[file.suffix](file, contents)
                 stack.callback(data_file.close)
-                total.add(data_file.scan())
+                counts.append(data_file.scan())
             except (OSError, *BROKEN) as error:
-                total.add(Contents(flaws=[f"{file.name}: it cannot be read ({_told(error)})"]))
-        total.entries.sort(key=lambda entry: entry[0])
-        yield total
+                contents.flaws.append(f"{file.name}: it cannot be read ({_told(error)})")
+                counts.append(None)
+        contents.entries.sort(key=lambda entry: entry[0])
+        known = [count for count in counts if count is not None]
+        contents.expected = sum(known) if len(known) == len(counts) else None
+        yield contents
 
 
 # A record of MCAP is an opcode (1 byte), a length (8 bytes) and that many bytes. Messages lie in chunks, which may be
@@ -124,22 +111,22 @@ def scanned(files: list[Path]) -> Iterator[Contents]:
 
 
 class McapFile:
-    """An MCAP file."""
+    """An MCAP file, whose content is added to `found`."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, found: Contents) -> None:
         self._name = path.name
         self._size = path.stat().st_size
-        self._left = self._limit = max(ALWAYS, MOST_TIMES * self._size)
-        self._found = Contents()
+        self._found = found
         self._file = path.open("rb")
         self.close = self._file.close
         self._chunk_again = lru_cache(8)(lambda place: self._chunk(place, *self._record(place)[1:]))
 
-    def scan(self) -> Contents:
-        """What the file holds."""
+    def scan(self) -> int | None:
+        """Add what the file holds; returns how many messages it says that it has."""
         schemas: dict[int, tuple[str, str]] = {}
         channels: dict[int, BagTopic] = {}
         messages: list[tuple[int, int, Where]] = []
+        expected = None
         try:
             for opcode, body, where in self._records():
                 if opcode == MESSAGE:
@@ -154,18 +141,17 @@ class McapFile:
                     type_name, definition = schemas.get(schema, ("", ""))
                     channels.setdefault(number, self._channel(body, type_name, definition))
                 elif opcode == STATISTICS:
-                    (self._found.expected,) = struct.unpack_from("<Q", body)
+                    (expected,) = struct.unpack_from("<Q", body)
         except _Spoiled as error:
             self._flaw(str(error))
         except (struct.error, UnicodeDecodeError):
             self._flaw(f"the record before byte {self._file.tell()} is damaged")
-        self._left = self._limit
         for time, number, where in messages:
             if number in channels:
                 self._found.take(time, channels[number], self, where)
-        if unknown := len(messages) - len(self._found.entries):
+        if unknown := sum(number not in channels for _, number, _ in messages):
             self._flaw(f"{unknown} messages belong to a topic whose description is lost")
-        return self._found
+        return expected
 
     def read(self, where: Where) -> bytes:
         """The bytes of a message."""
@@ -193,7 +179,6 @@ class McapFile:
             if opcode == CHUNK:
                 has_chunks = True
                 records = memoryview(self._chunk(place, length, body))
-                self._left -= len(records)
                 at = 0
                 while at + HEAD.size <= len(records):
                     opcode, inner = HEAD.unpack_from(records, at)
@@ -221,24 +206,17 @@ class McapFile:
         """The records of the chunk at a place: fewer if it is cut short, none if it is damaged, which becomes a flaw."""
         _, _, size, checksum = CHUNK_HEAD.unpack_from(body)
         compression, at = _text(memoryview(body), CHUNK_HEAD.size)
-        records, more, cut_short = body[at + 8 :], False, len(body) < length
+        records = body[at + 8 :]
         if compression:
-            if compression not in DECOMPRESSORS:
-                raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
-            if size > self._left:
-                most = f"{self._limit >> 20} MiB, which is no usual recording"
-                raise _Spoiled(f"the chunk at byte {place} is not unpacked: it would become more than {most}")
-            decompressor = DECOMPRESSORS[compression]()
+            decompressor = _decompressor(compression)
             try:
-                records = bytes(decompressor.decompress(records, size + 1))
+                records = bytes(decompressor.decompress(records, size))
             except Exception:
                 records = b""  # spoiled
-            more = len(records) > size or bool(decompressor.unused_data)
         records = records[:size]
         whole = len(records) == size
-        if more or (whole and checksum and zlib.crc32(records) != checksum) or not (whole or cut_short):
-            why = "it holds more than it says" if more else "its checksum is wrong"
-            self._flaw(f"the chunk at byte {place} is damaged ({why}), so its messages are left out")
+        if (whole and checksum and zlib.crc32(records) != checksum) or (not whole and len(body) == length):
+            self._flaw(f"the chunk at byte {place} is damaged (its checksum is wrong), so its messages are left out")
             return b""
         return records
 
@@ -264,39 +242,26 @@ def _text(body: memoryview, at: int) -> tuple[str, int]:
     return bytes(body[at + 4 : end]).decode(), end
 
 
-COMPUTED = (
-    "SELECT 1 FROM sqlite_master WHERE lower(name) IN ('topics', 'messages', 'message_definitions') "
-    "AND (type = 'view' OR sql LIKE 'CREATE VIRTUAL%')"
-)
-"""Finds anything but a plain table that bears the name of a bag's table."""
-
-
 class SqliteFile:
-    """A database of SQLite."""
+    """A database of SQLite, whose content is added to `found`."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, found: Contents) -> None:
         self._name = path.name
         self._size = path.stat().st_size
-        self._found = Contents()
+        self._found = found
         self._database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
         self._database.text_factory = lambda raw: raw.decode(errors="replace")
-        self._database.setlimit(
-            sqlite3.SQLITE_LIMIT_LENGTH, max(self._size, 1_000_000)
-        )  # no value is larger than its file
         self.close = self._database.close
 
-    def scan(self) -> Contents:
-        """What the file holds; tables that are computed, and not recorded, could be without end, and are not read."""
+    def scan(self) -> None:
+        """Add what the file holds; it does not say how many messages there were."""
         for (verdict,) in self._rows("PRAGMA integrity_check(1)"):
             if verdict != "ok":
                 self._flaw(verdict.splitlines()[-1])
         for pages, size in self._rows("SELECT page_count, page_size FROM pragma_page_count, pragma_page_size"):
             if pages * size != self._size:
                 self._flaw("it is cut short")  # SQLite would take what is missing for zeros
-                return self._found
-        if list(self._rows(COMPUTED)):
-            self._flaw("its tables are computed, not recorded")
-            return self._found
+                return
         definitions: dict[str, str] = {}
         with suppress(*BROKEN):  # Humble's has none
             query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
@@ -306,16 +271,14 @@ class SqliteFile:
         for number, topic, type_name, serialization, offered in self._rows(query):
             definition = definitions.get(type_name, "")
             topics[number] = self._found.known(BagTopic(topic, type_name, serialization, definition, offered))
-        last, left = 0, self._size
-        for row, number, time, length in self._rows("SELECT rowid, topic_id, timestamp, length(data) FROM messages"):
-            left -= 1 + (length if isinstance(length, int) else 0)
-            if row <= last or left < 0:
-                self._flaw("its messages are larger than the file, or in no order")
-                break
+        last = 0
+        for row, number, time in self._rows("SELECT rowid, topic_id, timestamp FROM messages"):
+            if row <= last:
+                self._flaw("its messages are in no order")  # nor would they ever end
+                return
             last = row
             if number in topics and isinstance(time, int):
                 self._found.take(time, topics[number], self, (row,))
-        return self._found
 
     def read(self, where: Where) -> bytes:
         """The bytes of a message; none if it has something else."""
@@ -342,21 +305,17 @@ def _told(error: object) -> str:
 
 
 DataFile = McapFile | SqliteFile
-DATA_FILES: dict[str, Callable[[Path], DataFile]] = {".mcap": McapFile, ".db3": SqliteFile}
+DATA_FILES: dict[str, Callable[[Path, Contents], DataFile]] = {".mcap": McapFile, ".db3": SqliteFile}
 
 
-def _zstd() -> Any:
-    if sys.version_info >= (3, 14):
-        from compression.zstd import ZstdDecompressor
+def _decompressor(compression: str) -> Any:
+    """What unpacks a chunk, also one that is cut short."""
+    if compression == "lz4":
+        from lz4.frame import LZ4FrameDecompressor as Decompressor
+    elif compression != "zstd":
+        raise _Spoiled(f"its chunks are compressed in an unknown way ({compression[:20]})")
+    elif sys.version_info >= (3, 14):
+        from compression.zstd import ZstdDecompressor as Decompressor
     else:
-        from backports.zstd import ZstdDecompressor
-    return ZstdDecompressor()
-
-
-def _lz4() -> Any:
-    from lz4.frame import LZ4FrameDecompressor
-
-    return LZ4FrameDecompressor()
-
-
-DECOMPRESSORS: dict[str, Callable[[], Any]] = {"zstd": _zstd, "lz4": _lz4}
+        from backports.zstd import ZstdDecompressor as Decompressor
+    return Decompressor()
