@@ -110,7 +110,7 @@ def test_a_package_of_a_course_is_built_from_its_sources_without_a_word(four: Pa
     source_in(world, "install/setup.bash")
     assert registry.interface_names("px4_msgs") == ["msg/GotoSetpoint", "msg/OffboardControlMode"]
     world.close()
-    assert "# µs since" in registry.commented("px4_msgs", "msg/ActuatorMotors")  # the lesson's own again
+    assert "# µs since" in registry.text("px4_msgs", "msg/ActuatorMotors", comments=True)  # the lesson's own again
 
 
 # -- layouts -----------------------------------------------------------------------------------------------------------

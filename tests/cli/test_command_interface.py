@@ -133,7 +133,7 @@ def test_standard_types_say_what_their_fields_mean(world: World) -> None:
 def test_a_learners_package_has_its_own_comments_alone(world: World, odd: Path) -> None:
     _add(odd, "Vector3 linear\n", "msg/Twist.msg")
     (odd / "comments.txt").write_text("[msg/Twist]\nlinear: m/s\n")
-    assert registry.commented("odd_msgs", "msg/Twist") == "Vector3 linear\n"
+    assert registry.text("odd_msgs", "msg/Twist", comments=True) == "Vector3 linear\n"
 
 
 def test_all_comments_or_none_but_not_both_can_be_asked_for(world: World) -> None:

@@ -289,11 +289,6 @@ def test_what_the_registry_does_not_know(name, text):
     assert str(caught.value).startswith(text)
 
 
-def test_only_what_was_added_can_be_removed(registry):
-    with pytest.raises(LookupError, match="the interface package 'std_msgs' was not added"):
-        registry.remove("std_msgs")
-
-
 def test_a_package_needs_a_proper_name(registry, tmp_path):
     with pytest.raises(InvalidDefinition, match="'Demo' is an invalid package name"):
         registry.add("Demo", tmp_path)

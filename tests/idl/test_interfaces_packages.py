@@ -333,7 +333,7 @@ def test_comments_are_about_what_is_there_and_change_no_definition(file: Path) -
     assert len(set(sections)) == len(sections)
     for interface in sections:
         folder, name = interface.split("/")
-        text, commented = registry.text(package, interface), registry.commented(package, interface)
+        text, commented = registry.text(package, interface), registry.text(package, interface, comments=True)
         bare = "\n".join(line.partition("#")[0].rstrip() for line in commented.splitlines())
         assert [line for line in bare.splitlines() if line] == [
             bare for line in text.splitlines() if (bare := line.partition("#")[0].rstrip())

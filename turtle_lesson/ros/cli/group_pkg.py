@@ -224,7 +224,7 @@ def _show(args: Namespace) -> None:
 def _lines(package: str, interface: str, args: Namespace, depth: int) -> Iterator[str]:
     """The lines of a definition, each field of a message type followed by that type's own lines, one tab deeper."""
     commented = args.all_comments or (depth == 0 and not args.no_comments)
-    text = registry.commented(package, interface) if commented else registry.text(package, interface)
+    text = registry.text(package, interface, comments=commented)
     for line in (text if depth else text.rstrip()).splitlines():
         shown = line.rstrip() if commented else _without_comment(line)
         if shown or commented:

@@ -135,10 +135,6 @@ class Registry:
     def remove(self, package: str) -> None:
         """Forget a package that was added, its classes, and its modules in `sys.modules`."""
         with self._lock:
-            if package not in self._added:
-                raise LookupError(
-                    f"the interface package '{package}' was not added. {names.did_you_mean(package, self.packages())}".rstrip()
-                )
             self._forget(package)
             del self._added[package]
 
@@ -158,15 +154,14 @@ class Registry:
         """Names such as `msg/Twist` of one package: messages, services, actions."""
         return self.package(package).interface_names()
 
-    def text(self, package: str, interface: str) -> str:
-        """The text of a definition file, e.g. of `geometry_msgs` and `msg/Twist`."""
-        return self._find(package, interface).text(interface)
+    def text(self, package: str, interface: str, *, comments: bool = False) -> str:
+        """The text of a definition file, e.g. of `geometry_msgs` and `msg/Twist`.
 
-    def commented(self, package: str, interface: str) -> str:
-        """The text of a definition file; that of a built-in package with comments that say what its fields mean."""
+        That of a built-in package can have `comments` that say what its fields mean.
+        """
         owner = self._find(package, interface)
         text = owner.text(interface)
-        return text if owner in self._added.values() else with_comments(owner.directory, interface, text)
+        return with_comments(owner.directory, interface, text) if comments and package not in self._added else text
 
     def definition(self, name: str) -> Definition:
         """The parsed definition of `geometry_msgs/msg/Twist`; InvalidDefinition where ROS refuses it."""
@@ -234,10 +229,9 @@ class Registry:
             hint = self._where_is(parts[-1], "/msg")
             raise LookupError(f"'{name}' is not a name such as 'geometry_msgs/msg/Twist'. {hint}".rstrip())
         owner = self.package(parts[0])
-        for folder in FOLDERS:
-            if owner.has(f"{folder}/{parts[1].partition('_')[0]}"):
-                return parts[0], f"{folder}/{parts[1]}"
-        return parts[0], f"msg/{parts[1]}"
+        whole = parts[1].partition("_")[0]
+        folder = next((each for each in FOLDERS if owner.has(f"{each}/{whole}")), "msg")
+        return parts[0], f"{folder}/{parts[1]}"
 
     def package(self, name: str) -> Package:
         """One package; LookupError where there is none of that name."""
@@ -291,7 +285,7 @@ def forget_modules(package: str) -> None:
     outer = sys.modules.get(package)
     if outer is None:
         return
-    if getattr(outer, "__interfaces__", False):
+    if outer.__spec__ is not None and outer.__spec__.origin == OUTER:
         del sys.modules[package]
     for folder in FOLDERS:
         if isinstance(outer.__dict__.get(folder), ModuleType):
@@ -319,6 +313,10 @@ def uninstall_finder(registry: Registry = registry) -> None:
     ]
 
 
+OUTER = "interfaces only"
+"""The origin of an outer package such as `geometry_msgs`, which is nothing but a place for its inner ones."""
+
+
 class InterfaceFinder:
     """Finds packages, their `msg`, `srv` and `action` packages, and the modules of single interfaces."""
 
@@ -336,17 +334,16 @@ class InterfaceFinder:
             return None
         owner, inner = self.registry.package(parts[0]), parts[1:]
         if not inner:
-            return ModuleSpec(fullname, _Loader(_mark), origin="interfaces only", is_package=True)
+            return ModuleSpec(fullname, _Loader(), origin=OUTER, is_package=True)
         folder, known = inner[0], owner.names_in(inner[0])
         if not known:
             return None
         if len(inner) == 1:
-            loader = _Loader(partial(_fill_folder, owner=owner, folder=folder))
+            loader = _Loader(fill=partial(_fill_folder, owner=owner, folder=folder))
             return ModuleSpec(fullname, loader, origin=f"made from {owner.name}/{folder}", is_package=True)
         for name in known:
             if names.module_name(name) == inner[1]:
-                made = partial(self.registry.module, fullname.partition(".")[0], f"{folder}/{name}")
-                return ModuleSpec(fullname, _Loader(made=made))
+                return ModuleSpec(fullname, _Loader(partial(self.registry.module, parts[0], f"{folder}/{name}")))
         if inner[1][:1].isupper():  # `from std_msgs.msg import Strng` ends here once the attribute is missing
             text = f"cannot import name '{inner[1]}' from '{owner.name}.{folder}'. {_hint(owner, folder, inner[1])}"
             raise ImportError(text.rstrip(". "), name=f"{owner.name}.{folder}")
@@ -366,27 +363,23 @@ def _is_found_elsewhere(fullname: str, path: Sequence[str] | None, target: Modul
 
 
 class _Loader(Loader):
-    """Fills in a module that Python makes, or has one that is complete already."""
+    """Gives a module that is made elsewhere, or fills in one that Python makes."""
 
     def __init__(
-        self, fill: Callable[[ModuleType], None] | None = None, made: Callable[[], ModuleType] | None = None
+        self,
+        make: Callable[[], ModuleType | None] = lambda: None,
+        fill: Callable[[ModuleType], object] = lambda module: None,
     ) -> None:
+        self._make = make
         self._fill = fill
-        self._made = made
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
         """The complete module, or None to leave it to Python."""
-        return self._made() if self._made else None
+        return self._make()
 
     def exec_module(self, module: ModuleType) -> None:
         """Fill the module in."""
-        if self._fill:
-            self._fill(module)
-
-
-def _mark(module: ModuleType) -> None:
-    """The outer package, e.g. `geometry_msgs`: nothing but a place for its inner ones."""
-    module.__interfaces__ = True  # type: ignore[attr-defined]
+        self._fill(module)
 
 
 def _fill_folder(module: ModuleType, owner: Package, folder: str) -> None:
