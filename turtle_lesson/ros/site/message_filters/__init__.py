@@ -200,7 +200,7 @@ class TimeSynchronizer(SimpleFilter):
 class ApproximateTimeSynchronizer(TimeSynchronizer):
     """The same for messages whose stamps lie less than `slop` seconds apart.
 
-    With `allow_headerless` a message without header counts as of when it comes, with `sync_arrival_time` (newer) every one.
+    With `allow_headerless` a message without header counts as of when it comes.
     """
 
     def __init__(
@@ -209,19 +209,14 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         queue_size: int,
         slop: float,
         allow_headerless: bool = False,
-        sync_arrival_time: bool = False,
     ) -> None:
         super().__init__(fs, queue_size)
         self.slop = Duration(seconds=slop)
         self.allow_headerless = allow_headerless
-        self.sync_arrival_time = sync_arrival_time
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """A message has come out of one of the filters."""
-        if self.sync_arrival_time:
-            stamp: Time | None = ROSClock().now()
-        else:
-            stamp = stamp_of(msg, self.allow_headerless, "message_filters_approx")
+        stamp = stamp_of(msg, self.allow_headerless, "message_filters_approx")
         if stamp is None:
             return
         with self.lock:

@@ -108,15 +108,6 @@ class BufferCore:
         """
         return self._look_up(Question.at_once(target_frame, source_frame, time))
 
-    def lookup_transform_full_core(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
-    ) -> TransformStamped:
-        """Where the source frame was at its time, seen from where the target frame is at its own.
-
-        What joins the two times is a frame that does not move between them. Raises as `lookup_transform_core`.
-        """
-        return self._look_up(Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame))
-
     def _look_up(self, question: Question) -> TransformStamped:
         for name, frame in question.frames.items():
             check_frame(self._frames, frame, f"lookupTransform argument {name}_frame")
@@ -130,17 +121,8 @@ class BufferCore:
         message.transform = Transform(translation=translation, rotation=Quaternion(x=x, y=y, z=z, w=w))
         return message
 
-    def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[bool, str]:
-        """Whether there is such a transform, and if not, why."""
-        return self._can(Question.at_once(target_frame, source_frame, time))
-
-    def can_transform_full_core(
-        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
-    ) -> tuple[bool, str]:
-        """Whether there is such a transform between two times, and if not, why."""
-        return self._can(Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame))
-
     def _can(self, question: Question) -> tuple[bool, str]:
+        """Whether it can be looked up, and if not, why."""
         for name, frame in question.frames.items():
             wrong = wrong_name(frame) or ("" if frame in self._frames else "frame does not exist")
             if wrong:

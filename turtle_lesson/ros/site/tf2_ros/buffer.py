@@ -91,13 +91,6 @@ class Buffer(BufferCore, BufferInterface):
         self._wait(question, timeout)
         return self._look_up(question)
 
-    async def lookup_transform_full_async(
-        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
-    ) -> TransformStamped:
-        """The same, awaited until it is there."""
-        await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
-
     def can_transform(
         self,
         target_frame: str,
@@ -110,41 +103,14 @@ class Buffer(BufferCore, BufferInterface):
         found = self._wait(Question.at_once(target_frame, source_frame, time), timeout)
         return found if return_debug_tuple else found[0]
 
-    def can_transform_full(
-        self,
-        target_frame: str,
-        target_time: Time,
-        source_frame: str,
-        source_time: Time,
-        fixed_frame: str,
-        timeout: Duration = AT_ONCE,
-        return_debug_tuple: bool = False,
-    ) -> Any:
-        """Whether there is such a transform between two times; with `return_debug_tuple` also why not."""
-        question = Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame)
-        found = self._wait(question, timeout)
-        return found if return_debug_tuple else found[0]
-
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
         """A future whose result is the transform, as soon as it can be looked up."""
-        return self._wait_for(Question.at_once(target_frame, source_frame, time))
-
-    def wait_for_transform_full_async(
-        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
-    ) -> Future:
-        """A future whose result is the transform between two times, as soon as it can be looked up."""
-        return self._wait_for(Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame))
-
-    def _wait_for(self, question: Question) -> Future:
-        """A future that is done as soon as what is asked can be looked up."""
+        question = Question.at_once(target_frame, source_frame, time)
         future = Future()
 
         def try_again() -> None:
-            try:
-                if not _is_over(future) and self._can(question)[0]:
-                    future.set_result(self._look_up(question))
-            except Exception as error:
-                future.set_exception(error)
+            if not _is_over(future) and self._can(question)[0]:
+                future.set_result(self._look_up(question))
 
         try_again()
         if not _is_over(future):

@@ -12,7 +12,6 @@ from geometry_msgs.msg import TransformStamped
 from rclpy._hints import refuse_unbuilt
 from rclpy.duration import Duration
 from rclpy.time import Time
-from std_msgs.msg import Header
 
 AT_ONCE = Duration()
 """A timeout of no time: nothing is waited for."""
@@ -21,18 +20,6 @@ Transforming = Callable[[Any, TransformStamped], Any]
 
 class TypeException(Exception):
     """No function is registered that transforms data of this type."""
-
-    def __init__(self, errstr: str) -> None:
-        super().__init__(errstr)
-        self.errstr = errstr
-
-
-class NotImplementedException(Exception):
-    """A subclass of BufferInterface does not say how it looks transforms up."""
-
-    def __init__(self) -> None:
-        super().__init__("CanTransform or LookupTransform not implemented")
-        self.errstr = "CanTransform or LookupTransform not implemented"
 
 
 class TransformRegistration:
@@ -56,12 +43,6 @@ class TransformRegistration:
         raise error
 
 
-def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:
-    """The same data with a header."""
-    obj.header = Header(frame_id=frame_id, stamp=stamp)
-    return obj
-
-
 class BufferInterface:
     """Base class of buffers. Times of 0 ask for the latest; a timeout says how long to wait for the transform."""
 
@@ -81,26 +62,8 @@ class BufferInterface:
         header = object_stamped.header
         return do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout))
 
-    def transform_full(
-        self,
-        object_stamped: Any,
-        target_frame: str,
-        target_time: Time,
-        fixed_frame: str,
-        timeout: Duration = AT_ONCE,
-        new_type: Any = None,
-    ) -> Any:
-        """Stamped data as seen from the target frame at another time. Raises as `transform`."""
-        refuse_unbuilt(new_type=new_type)
-        do_transform = self.registration.get(type(object_stamped))
-        header = object_stamped.header
-        transform = self.lookup_transform_full(
-            target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
-        )
-        return do_transform(object_stamped, transform)
-
-    def lookup_transform(self, *asked: Any, **keywords: Any) -> Any:
-        """Where a frame is, seen from another one, as `Buffer` has it; for subclasses to say."""
-        raise NotImplementedException
-
-    lookup_transform_full = can_transform = can_transform_full = lookup_transform
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE
+    ) -> TransformStamped:
+        """Where a frame is, seen from another one; for subclasses to say."""
+        raise NotImplementedError

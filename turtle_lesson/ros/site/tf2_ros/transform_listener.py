@@ -38,22 +38,17 @@ class TransformListener:
         static_qos: QoSProfile | int | None = None,
         tf_topic: str = DEFAULT_TF_TOPIC,
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
-        static_only: bool = False,
     ) -> None:
         if not hasattr(buffer, "set_transform"):
             raise TypeError(f"TransformListener(buffer, node) fills a Buffer, got {buffer!r} as the buffer")
         if node is not None and not hasattr(node, "create_subscription"):
             raise no_node(node)
         self.buffer = buffer
-        self.node = (
-            node
-            if node is not None
-            else Node(
-                "transform_listener_impl",
-                enable_rosout=False,
-                start_parameter_services=False,
-                parameter_overrides=[Parameter("use_sim_time", value=False)],
-            )
+        self.node = node or Node(
+            "transform_listener_impl",
+            enable_rosout=False,
+            start_parameter_services=False,
+            parameter_overrides=[Parameter("use_sim_time", value=False)],
         )
         # A group that lets a callback which waits for a transform be interrupted by the one that brings it.
         self.group = ReentrantCallbackGroup()
@@ -64,8 +59,7 @@ class TransformListener:
             qos = qos or QoSProfile(depth=100, durability=durability, history=HistoryPolicy.KEEP_LAST)
             return self.node.create_subscription(TFMessage, topic, callback, qos, callback_group=self.group)
 
-        if not static_only:
-            self.tf_sub = listen(tf_topic, self.callback, qos, DurabilityPolicy.VOLATILE)
+        self.tf_sub = listen(tf_topic, self.callback, qos, DurabilityPolicy.VOLATILE)
         self.tf_static_sub = listen(tf_static_topic, self.static_callback, static_qos, DurabilityPolicy.TRANSIENT_LOCAL)
         if spin_thread:
             self.executor = SingleThreadedExecutor()
@@ -80,8 +74,7 @@ class TransformListener:
 
     def unregister(self) -> None:
         """Listen no more."""
-        if hasattr(self, "tf_sub"):
-            self.node.destroy_subscription(self.tf_sub)
+        self.node.destroy_subscription(self.tf_sub)
         self.node.destroy_subscription(self.tf_static_sub)
 
     def callback(self, data: TFMessage) -> None:
