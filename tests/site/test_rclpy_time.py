@@ -574,7 +574,7 @@ def test_a_timer_is_a_context_manager_and_gone_after_its_block(world: World) -> 
         assert isinstance(timer, Timer)
         with timer.handle:
             assert timer.time_until_next_call() == 1_000_000_000
-        assert timer.handle == timer.handle and timer.handle.pointer == timer.handle.pointer
+        assert timer.handle.pointer == timer.handle.pointer
     assert list(node.timers) == []
     with pytest.raises(InvalidHandle, match="cannot use Destroyable because destruction was requested"):
         timer.reset()

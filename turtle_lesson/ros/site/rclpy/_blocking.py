@@ -80,6 +80,25 @@ def spin_live(function: Callable[[], None]) -> None:
         raise call.error
 
 
+@drives_the_simulation
+def wait_until(
+    condition: Callable[[], bool], timeout_sec: float | None, every: int, context: Context, what: str
+) -> bool:
+    """Look every so often (ns) whether a condition holds; False if it does not within the timeout (s), or the context ends.
+
+    None waits forever. `what` is what the running thread is said to do meanwhile.
+    """
+    strand = running_strand()
+    assert strand is not None
+    strand.activity, simulation = what, strand.simulation
+    deadline = NEVER if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
+    while not condition():
+        if not context.ok() or simulation.now >= deadline:
+            return False
+        simulation.sleep_until(min(simulation.now + every, deadline))
+    return True
+
+
 class WakeUp:
     """A one-shot wake-up: `wait` blocks the running strand until a time of the simulation, or until `wake` is called.
 

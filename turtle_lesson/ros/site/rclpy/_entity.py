@@ -15,7 +15,6 @@ from turtle_lesson.ros.rmw.trace import CHUNK
 
 from ._hints import explain_call
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, begin_of, end_of
-from .exceptions import refuse_destroyed, refuse_ended
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.rmw.trace import Callback
@@ -45,15 +44,62 @@ class Assignment:
         self.missed: dict[Entity, None] = {}
 
 
-class Entity:
-    """Base class. `_kind` decides the order in a cycle; `_number` is the order of creation."""
+class Handle:
+    """What stands for the C object of an entity, publisher, node or clock in the real rclpy: held with `with`."""
+
+    def __init__(self, owner: Any) -> None:
+        self._entity = owner
+        self.pointer = id(owner)
+        """A number that nothing else has."""
+
+    def __enter__(self) -> None:
+        if isinstance(self._entity, Destroyable):
+            self._entity._check_alive()
+
+    def __exit__(self, *error: object) -> None:
+        """Let go."""
+
+
+class Destroyable:
+    """What a node has made: an entity or a publisher. A `with` block destroys it at its end."""
+
+    _node: Node | None = None
+    _destroyed = False
+
+    @property
+    def handle(self) -> Handle:
+        """What stands for the C object of the real one."""
+        return Handle(self)
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        assert self._node is not None
+        return self._node.get_logger().name
+
+    def _check_alive(self, doing: str = "") -> None:
+        """Raise InvalidHandle if it was destroyed, and after rclpy.shutdown() RCLError for `doing` something."""
+        if self._destroyed and self._node is not None:
+            self._node._ros_refuse(doing)
+
+    def destroy(self) -> None:
+        """Never be used again."""
+        raise NotImplementedError
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.destroy()
+
+
+class Entity(Destroyable):
+    """Base class of what is run. `_kind` decides the order in a cycle; `_number` is the order of creation."""
 
     callback: Any
     _next: int
     """When a timer is due (ns); nothing else has it."""
     _kind = GUARD
-    _outlived = False
-    """Whether rclpy.shutdown() has taken it out of the graph, and nobody has destroyed it since."""
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         """Give each kind of entity a copy of the code that runs for each signal.
@@ -179,15 +225,6 @@ class Entity:
     def _done_with(self, arguments: tuple[Any, ...], result: Any) -> None:
         """The callback has returned `result`."""
 
-    def _check_alive(self, doing: str = "") -> None:
-        """Raise InvalidHandle if it was destroyed, and after rclpy.shutdown() RCLError for `doing` something."""
-        if not self._destroyed or self._node is None:
-            return
-        if not self._outlived:
-            refuse_destroyed(self._node._ros_simulation)
-        if doing:
-            refuse_ended(doing)
-
     def destroy(self) -> None:
         """Never be called again."""
         self._destroyed = True
@@ -196,46 +233,3 @@ class Entity:
             self._node._ros_waiting_entities.remove(self)
         if self.callback_group is not None:
             self.callback_group.entities.discard(self)
-
-    @property
-    def handle(self) -> Handle:
-        """What stands for the C object of the real one."""
-        return Handle(self)
-
-    def __enter__(self) -> Any:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.destroy()
-
-
-class Handle:
-    """What stands for the C object of an entity, node or clock in the real rclpy: held with `with`, and compared.
-
-    Nothing of the C interface is here but `pointer`; whatever else is asked for is looked up in the entity.
-    """
-
-    def __init__(self, entity: Any) -> None:
-        self._entity = entity
-
-    @property
-    def pointer(self) -> int:
-        """A number that no other entity has."""
-        return id(self._entity)
-
-    def __enter__(self) -> None:
-        check = getattr(self._entity, "_check_alive", None)
-        if check is not None:
-            check()
-
-    def __exit__(self, *error: object) -> None:
-        """Let go."""
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Handle) and self._entity is other._entity
-
-    def __hash__(self) -> int:
-        return hash(self._entity)
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._entity, name)

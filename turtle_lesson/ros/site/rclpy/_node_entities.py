@@ -22,6 +22,8 @@ from .subscription import Subscription
 from .timer import Rate, Timer, period_ns
 
 if TYPE_CHECKING:
+    from turtle_lesson.ros.rmw.endpoint import Quality
+
     from ._entity import Entity
     from .context import Context
     from .executors import Executor
@@ -37,7 +39,6 @@ class NodeEntities(NodeGraph):
         self._ros_made = 0
         self._ros_publishers: list[Publisher] = []
         self._ros_waiting_entities: list[Entity] = []
-        self._ros_outlived: list[Any] = []
         self._ros_default_callback_group = MutuallyExclusiveCallbackGroup()
         self._ros_rate_group: CallbackGroup | None = None
         self._ros_clock = ROSClock()
@@ -74,19 +75,15 @@ class NodeEntities(NodeGraph):
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
         RCLError, and NotImplementedError for QoS overrides.
         """
-        self._ros_check_alive("Failed to create publisher: rcl node's")
         refuse_unbuilt(qos_overriding_options=qos_overriding_options)
         callbacks = checked_callbacks(event_callbacks, PublisherEventCallbacks)
-        full_name = self._ros_full_name_of(topic)
-        profile = checked_profile(qos_profile)
-        quality = profile.quality("publisher")
-        type_support.check_is_valid_msg_type(msg_type)
-        self._ros_check_one_type("publisher", full_name, msg_type)
+        full_name, profile, quality = self._ros_topic_end("publisher", msg_type, topic, qos_profile)
         kind = msg_type if isinstance(msg_type, type) else type(msg_type)
         writer = self._ros_graph.add_writer(self._ros_entry, full_name, kind._TYPE_NAME, quality)  # type: ignore[attr-defined]
         writer.profile = profile
         group = callback_group or self._ros_default_callback_group
         publisher = publisher_class(writer, kind, topic, profile, event_callbacks=callbacks, callback_group=group)
+        publisher._node = self  # type: ignore[assignment]
         self._ros_publishers.append(publisher)
         for handler in publisher.event_handlers:
             self._ros_keep(handler)
@@ -110,14 +107,9 @@ class NodeEntities(NodeGraph):
         Raises InvalidTopicNameException, AttributeError or RuntimeError (no message type), TypeError, ValueError,
         RCLError, and NotImplementedError for QoS overrides and content filters.
         """
-        self._ros_check_alive("Failed to create subscription: rcl node's")
         refuse_unbuilt(qos_overriding_options=qos_overriding_options, content_filter_options=content_filter_options)
         callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
-        full_name = self._ros_full_name_of(topic)
-        profile = checked_profile(qos_profile)
-        quality = profile.quality("subscription")
-        type_support.check_is_valid_msg_type(msg_type)
-        self._ros_check_one_type("subscription", full_name, msg_type)
+        full_name, profile, quality = self._ros_topic_end("subscription", msg_type, topic, qos_profile)
         reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, quality)
         reader.profile = profile
         group = callback_group or self._ros_default_callback_group
@@ -127,18 +119,27 @@ class NodeEntities(NodeGraph):
             self._ros_keep(handler)
         return subscription
 
-    def _ros_check_one_type(self, what: str, full_name: str, msg_type: Any) -> None:
-        """Within one process ROS refuses a second type on a topic; between processes it only never connects."""
-        topic = self._ros_graph.topic(full_name)
-        if topic.types in ([], [msg_type._TYPE_NAME]):
-            return
-        ends: list[tuple[Any, str]] = [*topic.writers, *topic.readers]
+    def _ros_topic_end(
+        self, what: str, msg_type: Any, topic: str, qos_profile: QoSProfile | int
+    ) -> tuple[str, QoSProfile, Quality]:
+        """Full name, profile and what of it counts for a publisher or subscription (`what`) that is to be made.
+
+        Within one process ROS refuses a second type on a topic; between processes it only never connects.
+        """
+        self._ros_check_alive(f"Failed to create {what}: rcl node's")
+        full_name = self._ros_full_name_of(topic)
+        profile = checked_profile(qos_profile)
+        quality = profile.quality(what)
+        type_support.check_is_valid_msg_type(msg_type)
+        found, own_type = self._ros_graph.topic(full_name), msg_type._TYPE_NAME
+        ends: list[tuple[Any, str]] = [] if found.types in ([], [own_type]) else [*found.writers, *found.readers]
         for end, type_name in ends:
-            if end.node.process is self._ros_entry.process and type_name != msg_type._TYPE_NAME:
+            if end.node.process is self._ros_entry.process and type_name != own_type:
                 raise RCLError(
                     f"Failed to create {what}: failed to create topic [rt{full_name}] because it's already in use in this "
-                    f"context with a different message type: it is {type_name}, asked for was {msg_type._TYPE_NAME}"
+                    f"context with a different message type: it is {type_name}, asked for was {own_type}"
                 )
+        return full_name, profile, quality
 
     def create_timer(
         self,
@@ -215,23 +216,15 @@ class NodeEntities(NodeGraph):
 
     def _ros_destroy(self, entity: Any) -> bool:
         if entity not in self._ros_waiting_entities:
-            return self._ros_destroy_outlived(entity)
+            return False
         self._ros_waiting_entities.remove(entity)
         entity.destroy()
-        return True
-
-    def _ros_destroy_outlived(self, end: Any) -> bool:
-        """Destroy for good what rclpy.shutdown() has left; whether it has left that."""
-        if end not in self._ros_outlived:
-            return False
-        self._ros_outlived.remove(end)
-        end._outlived = False
         return True
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Stop publishing; False if it is not this node's."""
         if publisher not in self._ros_publishers:
-            return self._ros_destroy_outlived(publisher)
+            return False
         self._ros_publishers.remove(publisher)
         publisher.destroy()
         return True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.rmw.graph import NodeEntry
 from turtle_lesson.ros.rmw.names import Remap, remap
@@ -12,15 +12,17 @@ from turtle_lesson.ros.rmw.reader import Reader
 from turtle_lesson.ros.rmw.topic import Topic
 from turtle_lesson.ros.rmw.writer import Writer
 from turtle_lesson.ros.runtime.world import current_world
-from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
-from ._blocking import drives_the_simulation
+from ._blocking import wait_until
 from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError, refuse_destroyed, refuse_ended
 from .expand_topic_name import expand_topic_name
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from .validate_full_topic_name import validate_full_topic_name
 from .validate_topic_name import validate_topic_name
+
+if TYPE_CHECKING:
+    from .context import Context
 
 LOOK_AGAIN = 100_000_000
 """How often, in ns, `wait_for_node` looks."""
@@ -34,6 +36,8 @@ NODE_S = "rcl node's"
 class NodeGraph:
     """Mixed into Node."""
 
+    _ros_context: Context
+
     def _ros_setup_graph(self, entry: NodeEntry, remaps: list[Remap]) -> None:
         self._ros_entry = entry
         self._ros_remaps = remaps
@@ -43,9 +47,14 @@ class NodeGraph:
 
     def _ros_check_alive(self, doing: str = "") -> None:
         """Raise InvalidHandle if the node was destroyed, and after rclpy.shutdown() RCLError for `doing` something."""
-        if self._ros_destroyed and not self._ros_shut_down:
+        if self._ros_destroyed:
+            self._ros_refuse(doing)
+
+    def _ros_refuse(self, doing: str) -> None:
+        """Raise the error for the use of the node, or of what it made, when that is destroyed."""
+        if not self._ros_shut_down:
             refuse_destroyed(self._ros_simulation)
-        if self._ros_shut_down and doing:
+        if doing:
             refuse_ended(doing)
 
     def _ros_full_name_of(self, name: Any, *, only_expand: bool = False, is_service: bool = False) -> str:
@@ -158,20 +167,19 @@ class NodeGraph:
         """The actions that a node offers (newer releases). Raises NodeNameNonExistentError."""
         return _actions(self.get_publisher_names_and_types_by_node(node_name, node_namespace))
 
-    @drives_the_simulation
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
         """Wait until there is a node of this full name; False if there is none within the timeout (s; negative: none).
 
         Newer than Humble.
         """
-        simulation = self._ros_graph.simulation
         name = f"/{fully_qualified_node_name.lstrip('/')}"
-        deadline = None if timeout < 0 else simulation.now + int(timeout * NANOSECONDS)
-        while name not in self.get_fully_qualified_node_names():
-            if deadline is not None and simulation.now >= deadline:
-                return False
-            simulation.sleep_until(simulation.now + LOOK_AGAIN)
-        return True
+
+        def is_there() -> bool:
+            return name in self.get_fully_qualified_node_names()
+
+        return wait_until(
+            is_there, None if timeout < 0 else timeout, LOOK_AGAIN, self._ros_context, f"wait_for_node {name}"
+        )
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has. The name is not remapped, nor in the next three."""

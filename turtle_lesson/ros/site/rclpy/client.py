@@ -12,7 +12,7 @@ from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain, wait_in_vain
 
-from ._blocking import drives_the_simulation
+from ._blocking import drives_the_simulation, wait_until
 from ._deadlock import Words, is_notebook, why_never_answered
 from ._entity import CLIENT, Entity
 from ._hints import shown
@@ -68,11 +68,6 @@ class Client(Entity):
         """The context that the client's node lives in."""
         return self._of_node.context
 
-    @property
-    def logger_name(self) -> str:
-        """The name of the node's logger."""
-        return self._of_node.get_logger().name
-
     def service_is_ready(self) -> bool:
         """Whether somebody offers the service now."""
         self._check_alive("failed to check service availability: rcl node's")
@@ -81,19 +76,10 @@ class Client(Entity):
     def _servers(self) -> list[Any]:
         return self._of_node._ros_graph.servers(self._end.name, self._end.type_name)
 
-    @drives_the_simulation
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Wait until a node offers the service; False if none does within the timeout (s). None waits forever."""
-        strand, simulation = running_strand(), self._end.simulation
-        if strand is not None:
-            strand.activity = f"wait_for_service for {self._end.name}"
-        deadline = None if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
-        while not self.service_is_ready():
-            if not self._of_node.context.ok() or (deadline is not None and simulation.now >= deadline):
-                return False
-            until = simulation.now + POLL
-            simulation.sleep_until(until if deadline is None else min(until, deadline))
-        return True
+        what = f"wait_for_service for {self._end.name}"
+        return wait_until(self.service_is_ready, timeout_sec, POLL, self._of_node.context, what)
 
     def call_async(self, request: Any) -> Future:
         """Send a request; the future will have the response. Raises TypeError for anything but a request."""

@@ -203,10 +203,6 @@ class Node(NodeParameters):
         """What stands for the C object of the real one."""
         return Handle(self)
 
-    @handle.setter
-    def handle(self, value: object) -> None:
-        raise AttributeError("handle cannot be modified after node creation")
-
     def get_logger(self) -> RcutilsLogger:
         """The node's logger."""
         return self._ros_logger
@@ -239,19 +235,13 @@ class Node(NodeParameters):
 
     def destroy_node(self) -> None:
         """Leave the graph, with everything that the node has made."""
-        for end in list(self._ros_outlived):
-            self._ros_destroy_outlived(end)
         self._ros_shut_down = False
         self._ros_leave()
 
     def _ros_shut(self) -> None:
         """The context ends: leave the graph, but stay what it is, with what it has made."""
-        ends: list[Any] = [*self._ros_publishers, *self._ros_waiting_entities]
         self._ros_leave()
         self._ros_shut_down = True
-        self._ros_outlived = ends
-        for end in ends:
-            end._outlived = True
 
     def _ros_leave(self) -> None:
         """What `destroy_node` does, also where a subclass has a `destroy_node` of its own."""

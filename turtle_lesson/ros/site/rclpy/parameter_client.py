@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.sim.simulation import NANOSECONDS
-from turtle_lesson.ros.sim.strand import running_strand
-
-from ._blocking import drives_the_simulation
+from ._blocking import wait_until
 from .callback_groups import CallbackGroup
 from .client import POLL, Client
 from .parameter import Parameter, parameter_dict_from_yaml_file
@@ -55,17 +52,10 @@ class AsyncParameterClient:
         """Whether all six services are there."""
         return all(client.service_is_ready() for client in self._clients.values())
 
-    @drives_the_simulation
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
         """Wait until all six services are there; False if they are not within the timeout (s). None waits forever."""
-        strand = running_strand()
-        assert strand is not None
-        strand.activity = f"wait_for_services of {self.remote_node_name}"
-        simulation = strand.simulation
-        deadline = None if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
-        while not self.services_are_ready() and (deadline is None or simulation.now < deadline):
-            simulation.sleep_until(simulation.now + POLL if deadline is None else min(simulation.now + POLL, deadline))
-        return self.services_are_ready()
+        what = f"wait_for_services of {self.remote_node_name}"
+        return wait_until(self.services_are_ready, timeout_sec, POLL, self.node.context, what)
 
     def _ask(self, name: str, callback: Told, **fields: Any) -> Future:
         client = self._clients[name]

@@ -4,25 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import GenericAlias
-from typing import Any, NoReturn
+from typing import Any
 
 from turtle_lesson.ros.idl import checks
 from turtle_lesson.ros.rmw.writer import Writer
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
 from ._blocking import drives_the_simulation
-from ._entity import Handle
+from ._entity import Destroyable
 from ._hints import no_message
 from .callback_groups import CallbackGroup
 from .duration import Duration
 from .event_handler import EventHandler, PublisherEventCallbacks
-from .exceptions import refuse_destroyed, refuse_ended
 from .qos import QoSProfile
 
 FOR_EVER = Duration(seconds=-1)
 
 
-class Publisher:
+class Publisher(Destroyable):
     """Made by `Node.create_publisher`."""
 
     __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Publisher[String] in a hint
@@ -36,28 +35,19 @@ class Publisher:
         event_callbacks: PublisherEventCallbacks,
         callback_group: CallbackGroup,
     ) -> None:
-        self._writer: Writer | None = publisher_impl
+        self._writer = publisher_impl
         self._write: Callable[[Any], object] = publisher_impl.write
         if not checks.when_assigned:
             self._write = lambda message: publisher_impl.write(checks.sendable(message))
-        self._simulation = publisher_impl.topic.simulation
         self._topic_name = publisher_impl.topic.name
-        self._outlived = False
         self.msg_type = msg_type
         self.topic = topic
         self.qos_profile = qos_profile
         self.callback_group = callback_group
-        self._logger_name = publisher_impl.node.logger_name
         self.event_handlers: list[EventHandler] = event_callbacks.create_event_handlers(callback_group, self, topic)
 
     def __repr__(self) -> str:
         return f"<Publisher of {self.topic}>"
-
-    def __enter__(self) -> Publisher:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.destroy()
 
     @property
     def topic_name(self) -> str:
@@ -65,24 +55,9 @@ class Publisher:
         self._check_alive()
         return self._topic_name
 
-    @property
-    def handle(self) -> Handle:
-        """What stands for the C object of the real one."""
-        return Handle(self)
-
-    @property
-    def logger_name(self) -> str:
-        """The name of the node's logger."""
-        return self._logger_name
-
     def _end(self, doing: str = "") -> Writer:
-        if self._writer is None:
-            self._refuse_to(doing)
+        self._check_alive(doing)
         return self._writer
-
-    def _check_alive(self) -> None:
-        if not self._outlived:
-            self._end()
 
     def publish(self, msg: Any) -> None:
         """Send a message to all matched subscriptions. It is copied: changing `msg` later changes nothing sent.
@@ -121,20 +96,12 @@ class Publisher:
 
     def destroy(self) -> None:
         """Leave the topic."""
-        if self._writer is not None:
+        if not self._destroyed:
             for handler in self.event_handlers:
                 handler.destroy()
             self._writer.node.process.world.graph.remove_topic_end(self._writer)
-            self._writer = None
-            self._write = self._refuse
-
-    def _refuse(self, message: Any) -> None:
-        self._refuse_to("Failed to publish: publisher's")
-
-    def _refuse_to(self, doing: str) -> NoReturn:
-        if self._outlived:
-            refuse_ended(doing)
-        refuse_destroyed(self._simulation)
+            self._destroyed = True
+            self._write = lambda message: self._check_alive("Failed to publish: publisher's")
 
 
 @drives_the_simulation

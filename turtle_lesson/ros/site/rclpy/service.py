@@ -47,11 +47,6 @@ class Service(Entity):
         """The service's full name."""
         return self._server.name
 
-    @property
-    def logger_name(self) -> str:
-        """The name of the node's logger."""
-        return self._server.node.logger_name
-
     def _has_work(self) -> bool:
         return bool(self._server.queue)
 

@@ -50,7 +50,6 @@ class Subscription(Entity):
         self.topic = topic
         self.qos_profile = qos_profile
         self.raw = raw
-        self._logger_name = subscription_impl.node.logger_name
         if _wants_info(callback):
             current_world().release.note_use(MESSAGE_INFO)
             subscription_impl.keep_times()
@@ -63,11 +62,6 @@ class Subscription(Entity):
     def topic_name(self) -> str:
         """The topic's full name."""
         return self._reader.topic.name
-
-    @property
-    def logger_name(self) -> str:
-        """The name of the node's logger."""
-        return self._logger_name
 
     def _end(self) -> Reader:
         return self._reader

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+import math
 from collections.abc import Callable
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
@@ -12,13 +12,14 @@ from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
 from turtle_lesson.ros.sim.errors import NeverWakes
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 
-from .._blocking import drives_the_simulation
+from .._blocking import drives_the_simulation, wait_until
 from .._deadlock import Words, why_never_answered, why_nobody_offers
 from .._hints import shown
 from ..callback_groups import CallbackGroup
-from ..client import Client
+from ..client import POLL, Client
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..task import Future
 from ._endpoints import TOPICS, ActionEndpoint, call_back, new_goal_id
@@ -35,7 +36,6 @@ ASK = {
 """What to do instead of a synchronous call of each service behind an action."""
 SUFFIX = "/_action/send_goal"
 FEEDBACK = QoSProfile(depth=10)
-POLL = 0.25  # how often, in s, the real one looks whether a server has appeared (client.py)
 
 
 class ActionClient(ActionEndpoint):
@@ -90,20 +90,13 @@ class ActionClient(ActionEndpoint):
         has_topics = all(self._arrived[kind].topic.writers for kind in TOPICS)
         return has_topics and all(client._servers() for client in self._clients)
 
-    @drives_the_simulation
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
         """Wait until a node offers the action; False if none does within the timeout (s). None waits forever.
 
-        As the real one it looks every quarter of a second, and waits for whole quarters.
+        As the real one it waits for whole quarters of a second.
         """
-        strand = running_strand()
-        if strand is not None:
-            strand.activity = f"wait_for_server for {self._name}"
-        left = float("inf") if timeout_sec is None else timeout_sec
-        while self._node.context.ok() and not self.server_is_ready() and left > 0.0:
-            time.sleep(POLL)
-            left -= POLL
-        return self.server_is_ready()
+        whole = None if timeout_sec is None else math.ceil(timeout_sec * NANOSECONDS / POLL) * POLL / NANOSECONDS
+        return wait_until(self.server_is_ready, whole, POLL, self._node.context, f"wait_for_server for {self._name}")
 
     def send_goal_async(
         self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None
