@@ -326,7 +326,7 @@ def test_who_wants_to_know_of_no_jumps_any_more_says_so(world: World) -> None:
     clock._set_ros_time_is_active(False)
     handle.unregister()  # a second time does nothing
     assert [jump.clock_change for jump in told] == [ClockChange.ROS_TIME_ACTIVATED]
-    assert repr(told[0]) == "<TimeJump ROS_TIME_ACTIVATED, delta 0 nanoseconds>"
+    assert told == [TimeJump(ClockChange.ROS_TIME_ACTIVATED, Duration())]
 
 
 @pytest.mark.parametrize(
@@ -350,15 +350,13 @@ def test_who_wants_to_know_of_no_jumps_any_more_says_so(world: World) -> None:
         ),
         (
             lambda: ROSClock().create_jump_callback(JumpThreshold(min_forward=None, min_backward=None), pre_callback=5),
-            "pre_callback must be callable if given",
+            "must be callable, and so must the other if given",
         ),
     ],
 )
 def test_wishes_that_make_no_sense(world: World, make: Callable[[], object], text: str) -> None:
     with pytest.raises(ValueError, match=text):
         make()
-    with pytest.raises(TypeError, match=r"clock_change must be an instance of rclpy.clock.ClockChange"):
-        TimeJump("forward", Duration())
 
 
 # ---------------------------------------------------------------- sleeping

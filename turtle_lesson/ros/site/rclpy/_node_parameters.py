@@ -71,41 +71,44 @@ class NodeParameters(NodeEntities):
         from rcl_interfaces.msg import SetParametersResult
 
         if self._ros_before_set:
-            changed: list[Parameter] = []
-            for callback in self._ros_before_set:
-                answer = callback(parameter_list)
-                try:
-                    changed.extend(answer)
-                except TypeError as error:
-                    error.add_note("A pre-set callback ends with `return parameters`, the list of parameters to set.")
-                    raise
-            parameter_list = changed
+            parameter_list = [each for callback in self._ros_before_set for each in callback(parameter_list)]
             if not parameter_list:
                 reason = "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
                 return SetParametersResult(reason=reason + "modifying the original parameters list.")
-        self._ros_check_settable(parameter_list)
-        reason = self._ros_set(parameter_list)
-        return SetParametersResult(successful=not reason, reason=reason)
-
-    def _ros_check_settable(self, parameters: list[Parameter]) -> None:
-        for parameter in parameters:
+        for parameter in parameter_list:
             if not isinstance(parameter, Parameter):
                 raise TypeError(
                     f"a list of rclpy.parameter.Parameter is expected, got {parameter!r} in it: "
                     "try Parameter('speed', value=0.5)"
                 )
-        undeclared = [each.name for each in parameters if each.name not in self._ros_parameters]
+        undeclared = [each.name for each in parameter_list if each.name not in self._ros_parameters]
         if undeclared and not self._ros_allow_undeclared:
             raise self._ros_not_declared(undeclared[0], undeclared)
+        reason = self._ros_set(parameter_list)
+        return SetParametersResult(successful=not reason, reason=reason)
 
     def _ros_set(self, parameters: list[Parameter], descriptors: dict[str, Any] | None = None) -> str:
         """Check and store; new descriptors mean that the parameters are being declared. Returns why not, or ''."""
-        reason = self._ros_why_refused(parameters, descriptors) or self._ros_ask_callbacks(parameters)
-        if not reason:
-            self._ros_store(parameters, descriptors)
-            for callback in self._ros_after_set:
-                callback(parameters)
-        return reason
+        for parameter in parameters:
+            descriptor = (descriptors or self._ros_descriptors).get(parameter.name)
+            if descriptor is not None and descriptor.read_only and descriptors is None:
+                return f"Trying to set a read-only parameter: {parameter.name}."
+            is_declared = parameter.name in self._ros_parameters
+            if descriptor is not None and (reason := _why_refused(parameter, descriptor, is_declared)):
+                return reason
+        for callback in self._ros_on_set:
+            result = callback(parameters)
+            if not hasattr(result, "successful"):
+                raise AttributeError(
+                    f"a parameter callback returned {result!r}, which has no attribute 'successful': end it with "
+                    "`return SetParametersResult(successful=True)`"
+                )
+            if not result.successful:
+                return result.reason or "refused by a callback of the node, which gave no reason"
+        self._ros_store(parameters, descriptors)
+        for callback in self._ros_after_set:
+            callback(parameters)
+        return ""
 
     def _ros_store(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> None:
         """Keep the values, forget those that are set to nothing, and tell /parameter_events about it."""
@@ -128,31 +131,6 @@ class NodeParameters(NodeEntities):
             self._ros_descriptors[name] = known[name]
             self._ros_parameters[name] = parameter
         self._ros_event_publisher.publish(event)
-
-    def _ros_why_refused(self, parameters: list[Parameter], descriptors: dict[str, Any] | None) -> str:
-        """Why one of the values is not allowed, as the real one words it; '' if all are."""
-        for parameter in parameters:
-            descriptor = (descriptors or self._ros_descriptors).get(parameter.name)
-            if descriptor is not None and descriptor.read_only and descriptors is None:
-                return f"Trying to set a read-only parameter: {parameter.name}."
-            is_known = parameter.name in self._ros_parameters
-            reason = "" if descriptor is None else _why_refused(parameter, descriptor, is_known)
-            if reason:
-                return reason
-        return ""
-
-    def _ros_ask_callbacks(self, parameters: list[Parameter]) -> str:
-        """The reason why one of the node's own callbacks refuses, or ''."""
-        for callback in self._ros_on_set:
-            result = callback(parameters)
-            if not hasattr(result, "successful"):
-                raise AttributeError(
-                    f"a parameter callback returned {result!r}, which has no attribute 'successful': end it with "
-                    "`return SetParametersResult(successful=True)`"
-                )
-            if not result.successful:
-                return result.reason or "refused by a callback of the node, which gave no reason"
-        return ""
 
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
         """Give a declared parameter another descriptor; returns the value in force.
@@ -219,8 +197,8 @@ class NodeParameters(NodeEntities):
     ) -> list[Parameter]:
         """Declare several: tuples of name, and optionally value and descriptor."""
         declared: list[tuple[Parameter, Any]] = []
-        for index, details in enumerate(parameters):
-            name, value, descriptor = _read_declaration(index, namespace, details)
+        for details in parameters:
+            name, value, descriptor = _read_declaration(namespace, details)
             overridden = not ignore_override and name in self._ros_overrides
             declared.append((self._ros_overrides[name] if overridden else Parameter(name, value=value), descriptor))
         taken = [parameter.name for parameter, _ in declared if parameter.name in self._ros_parameters]
@@ -241,11 +219,8 @@ class NodeParameters(NodeEntities):
         """
         from rcl_interfaces.msg import ParameterDescriptor
 
-        found = [
-            (name, each.value, ParameterDescriptor(dynamic_typing=each.value is None))
-            for name, each in self._ros_overrides.items()
-        ]
-        self.declare_parameters("", found, ignore_override=True)
+        for name, each in self._ros_overrides.items():
+            self.declare_parameter(name, each.value, ParameterDescriptor(dynamic_typing=each.value is None), True)
 
     def undeclare_parameter(self, name: str) -> None:
         """Forget a parameter. Raises ParameterNotDeclaredException or ParameterImmutableException."""
@@ -270,8 +245,6 @@ class NodeParameters(NodeEntities):
 
     def get_parameters(self, names: list[str]) -> list[Parameter]:
         """Several declared parameters."""
-        if not all(isinstance(name, str) for name in names):
-            raise TypeError("All names must be instances of type str")
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
@@ -295,8 +268,6 @@ class NodeParameters(NodeEntities):
 
     def get_parameter_types(self, names: list[str]) -> list[Any]:
         """The numbers of several parameters' types."""
-        if not all(isinstance(name, str) for name in names):
-            raise TypeError("All names must be instances of type str")
         return [self.get_parameter_type(name) for name in names]
 
     def describe_parameter(self, name: str) -> Any:
@@ -319,12 +290,6 @@ class NodeParameters(NodeEntities):
         """
         from rcl_interfaces.msg import ListParametersResult
 
-        if not isinstance(prefixes, list):
-            raise TypeError(f"The prefixes argument must be a list, got {prefixes!r}")
-        if not all(isinstance(prefix, str) for prefix in prefixes):
-            raise TypeError("All prefixes must be instances of type str")
-        if not isinstance(depth, int):
-            raise TypeError(f"The depth must be instance of type int, got {depth!r}")
         if depth < 0:
             raise ValueError("The depth must be greater than or equal to zero")
         names = [name for name in self._ros_parameters if _is_listed(name, prefixes, depth)]
@@ -340,26 +305,27 @@ class NodeParameters(NodeEntities):
 # What a declaration may say, and which values a descriptor allows. Reasons are given in rclpy's words (its node.py).
 
 
-def _read_declaration(index: int, namespace: str, details: tuple[Any, ...]) -> tuple[str, Any, Any]:
+def _read_declaration(namespace: str, details: tuple[Any, ...]) -> tuple[str, Any, Any]:
     """Full name, default value and descriptor of a declaration: a tuple of name, and perhaps value and descriptor."""
     from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
 
-    if not 1 <= len(details) <= 3:
-        raise TypeError(
-            f"Invalid parameter tuple length at index {index} in parameters list: {details}; "
-            "expecting length between 1 and 3"
-        )
-    name = _full_name(index, namespace, details[0])
-    value = details[1] if len(details) > 1 else None
-    descriptor = details[2] if len(details) > 2 else ParameterDescriptor()
+    if not 1 <= len(details) <= 3 or not isinstance(details[0], str):
+        raise TypeError(f"a parameter is declared by a tuple of its name, value and descriptor, got {details!r}")
+    name, value, descriptor = (*details, None, None)[:3]
+    if not name:
+        raise InvalidParameterException(name)
+    name = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
+    descriptor = ParameterDescriptor() if len(details) < 3 else descriptor
     if not isinstance(descriptor, ParameterDescriptor):
-        raise TypeError(f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor.")
+        raise TypeError(f"the descriptor of the parameter {name} must be a ParameterDescriptor, got {descriptor!r}")
     descriptor.name = name
     if len(details) == 1:
         warnings.warn(ONLY_A_NAME.format(name), UserWarning, stacklevel=4)
         descriptor.dynamic_typing = True
     if isinstance(value, Parameter.Type):
-        _declare_type(name, value, descriptor)
+        if descriptor.dynamic_typing or value == Parameter.Type.NOT_SET:
+            raise ValueError(f"Cannot declare parameter {{{name}}} with dynamic_typing=True and a type, or as NOT_SET")
+        descriptor.type = value.value
         return name, None, descriptor
     if not descriptor.dynamic_typing:
         is_unset = isinstance(value, ParameterValue) and value.type == Parameter.Type.NOT_SET.value
@@ -367,25 +333,6 @@ def _read_declaration(index: int, namespace: str, details: tuple[Any, ...]) -> t
         if value is None or is_unset:
             raise ValueError("Cannot declare a statically typed parameter with default value of type PARAMETER_NOT_SET")
     return name, value, descriptor
-
-
-def _full_name(index: int, namespace: str, name: object) -> str:
-    if not isinstance(name, str):
-        raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
-    if not name:
-        raise InvalidParameterException(name)
-    return f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
-
-
-def _declare_type(name: str, kind: Parameter.Type, descriptor: Any) -> None:
-    if kind == Parameter.Type.NOT_SET:
-        raise ValueError(f"Cannot declare parameter {{{name}}} as statically typed of type NOT_SET")
-    if descriptor.dynamic_typing:
-        raise ValueError(
-            f"When declaring parameter {{{name}}} passing a descriptor with `dynamic_typing=True` is not allowed when "
-            "the parameter type is provided"
-        )
-    descriptor.type = kind.value
 
 
 def _why_refused(parameter: Parameter, descriptor: Any, is_declared: bool) -> str:

@@ -6,6 +6,7 @@ A ROS clock that is told to (by the parameter use_sim_time of its node) follows 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.runtime.world import current_world
@@ -181,15 +182,15 @@ class ROSClock(Clock):
         """Begin or end to follow /clock; a TimeSource does it."""
         if self._is_active == enabled:
             return
-        change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
-        jump, before = TimeJump(change, Duration()), self._now()
-        for handle in list(self._jump_handles):
-            handle.before(jump)
-        self._is_active = enabled
-        for timer in self._timers:
-            timer._follow(self._followed if enabled else None, before)
-        for handle in list(self._jump_handles):
-            handle.after(jump)
+        before = self._now()
+
+        def change() -> None:
+            self._is_active = enabled
+            for timer in self._timers:
+                timer._follow(self._followed if enabled else None, before)
+
+        what = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
+        self._jump(TimeJump(what, Duration()), change)
 
     def set_ros_time_override(self, time: Time) -> None:
         """Set the time that this clock shows while it is ruled by /clock. Raises TypeError for what is no Time."""
@@ -198,15 +199,25 @@ class ROSClock(Clock):
         if not self._is_active:
             self._followed.now = time.nanoseconds
             return
+
+        def change() -> None:
+            self._followed.now = time.nanoseconds
+            for timer in self._timers:
+                timer._jumped()
+
         delta = Duration(nanoseconds=time.nanoseconds - self._followed.now)
-        jump = TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta)
-        for handle in list(self._jump_handles):
-            handle.before(jump)
-        self._followed.now = time.nanoseconds
-        for timer in self._timers:
-            timer._jumped()
-        for handle in list(self._jump_handles):
-            handle.after(jump)
+        self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), change)
+
+    def _jump(self, jump: TimeJump, change: Callable[[], None]) -> None:
+        """Carry out the change that a jump is; call before and after it what wants to know of such jumps."""
+        handles = [handle for handle in self._jump_handles if handle.wants(jump)]
+        for handle in handles:
+            if handle.before is not None:
+                handle.before()
+        change()
+        for handle in handles:
+            if handle.after is not None:
+                handle.after(jump)
 
 
 # -- jumps of a clock (which callbacks are called: rcl's time.c) ------------------------------------------------------
@@ -221,53 +232,32 @@ class ClockChange(CEnum):
     SYSTEM_TIME_NO_CHANGE = 4
 
 
+@dataclass(kw_only=True)
 class JumpThreshold:
-    """Of which jumps one wants to know.
+    """Of which jumps one wants to know. Raises ValueError if a duration has the wrong sign, or no jump at all is wanted."""
 
-    Args:
-        min_forward: the shortest jump forward, a positive Duration; None for no jump forward.
-        min_backward: the shortest jump back, a negative Duration; None for no jump back.
-        on_clock_change: whether to know of changes of the source.
+    min_forward: Duration | None
+    """The shortest jump forward, a positive Duration; None for no jump forward."""
+    min_backward: Duration | None
+    """The shortest jump back, a negative Duration; None for no jump back."""
+    on_clock_change: bool = True
+    """Whether to know of changes of the source."""
 
-    Raises:
-        ValueError: if a duration has the wrong sign, or no jump at all is wanted.
-    """
-
-    def __init__(
-        self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True
-    ) -> None:
-        if min_forward is not None and min_forward.nanoseconds <= 0:
+    def __post_init__(self) -> None:
+        if self.min_forward is not None and self.min_forward.nanoseconds <= 0:
             raise ValueError("min_forward must be a positive non-zero duration")
-        if min_backward is not None and min_backward.nanoseconds >= 0:
+        if self.min_backward is not None and self.min_backward.nanoseconds >= 0:
             raise ValueError("min_backward must be a negative non-zero duration")
-        if min_forward is None and min_backward is None and not on_clock_change:
+        if self.min_forward is None and self.min_backward is None and not self.on_clock_change:
             raise ValueError("At least one jump threshold must be enabled")
-        self.min_forward = min_forward
-        self.min_backward = min_backward
-        self.on_clock_change = on_clock_change
 
 
+@dataclass(frozen=True)
 class TimeJump:
-    """A jump: whether the source of time changed, and how far it went (a Duration, negative for back)."""
+    """A jump: whether the source of time changed, and how far it went (negative for back)."""
 
-    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
-        if not isinstance(clock_change, ClockChange):
-            raise TypeError("clock_change must be an instance of rclpy.clock.ClockChange")
-        self._clock_change = clock_change
-        self._delta = delta
-
-    def __repr__(self) -> str:
-        return f"<TimeJump {self._clock_change.name}, delta {self._delta}>"
-
-    @property
-    def clock_change(self) -> ClockChange:
-        """Whether the source of time changed."""
-        return self._clock_change
-
-    @property
-    def delta(self) -> Duration:
-        """How far it went."""
-        return self._delta
+    clock_change: ClockChange
+    delta: Duration
 
 
 class JumpHandle:
@@ -279,17 +269,15 @@ class JumpHandle:
         clock: Clock,
         threshold: JumpThreshold,
         pre_callback: Callable[[], object] | None,
-        post_callback: Callable[[Any], object] | None,
+        post_callback: Callable[[TimeJump], object] | None,
     ) -> None:
-        if pre_callback is None and post_callback is None:
-            raise ValueError("One of pre_callback or post_callback must be callable")
-        for name, callback in (("pre_callback", pre_callback), ("post_callback", post_callback)):
-            if callback is not None and not callable(callback):
-                raise ValueError(f"{name} must be callable if given")
+        given = [callback for callback in (pre_callback, post_callback) if callback is not None]
+        if not given or not all(map(callable, given)):
+            raise ValueError("One of pre_callback or post_callback must be callable, and so must the other if given")
         self._clock: Clock | None = clock
         self._threshold = threshold
-        self._pre_callback = pre_callback
-        self._post_callback = post_callback
+        self.before = pre_callback
+        self.after = post_callback
         clock._jump_handles.append(self)
 
     def unregister(self) -> None:
@@ -304,23 +292,11 @@ class JumpHandle:
     def __exit__(self, *error: object) -> None:
         self.unregister()
 
-    def before(self, jump: TimeJump) -> None:
-        """The clock is about to jump."""
-        if self._pre_callback is not None and self._is_wanted(jump):
-            self._pre_callback()
-
-    def after(self, jump: TimeJump) -> None:
-        """The clock has jumped."""
-        if self._post_callback is not None and self._is_wanted(jump):
-            self._post_callback(jump)
-
-    def _is_wanted(self, jump: TimeJump) -> bool:
+    def wants(self, jump: TimeJump) -> bool:
+        """Whether this is one of the jumps to know of."""
         wish, delta = self._threshold, jump.delta
-        if wish.on_clock_change and jump.clock_change in _CHANGES:
-            return True
+        if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+            return wish.on_clock_change
         if wish.min_backward is not None and delta <= wish.min_backward:
             return True
         return wish.min_forward is not None and delta >= wish.min_forward
-
-
-_CHANGES = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)

@@ -17,17 +17,8 @@ from .clock_type import CEnum
 from .logging import get_logger
 from .qos import QoSPolicyKind, qos_policy_name_from_kind
 
-
-class rmw_qos_policy_kind_t(CEnum):
-    """Which policy did not fit. Its members equal those of QoSPolicyKind."""
-
-    RMW_QOS_POLICY_INVALID = QoSPolicyKind.INVALID
-    RMW_QOS_POLICY_DURABILITY = QoSPolicyKind.DURABILITY
-    RMW_QOS_POLICY_DEADLINE = QoSPolicyKind.DEADLINE
-    RMW_QOS_POLICY_LIVELINESS = QoSPolicyKind.LIVELINESS
-    RMW_QOS_POLICY_RELIABILITY = QoSPolicyKind.RELIABILITY
-    RMW_QOS_POLICY_HISTORY = QoSPolicyKind.HISTORY
-    RMW_QOS_POLICY_LIFESPAN = QoSPolicyKind.LIFESPAN
+rmw_qos_policy_kind_t = CEnum("rmw_qos_policy_kind_t", {f"RMW_QOS_POLICY_{kind.name}": kind for kind in QoSPolicyKind})  # type: ignore[misc]
+"""Which policy did not fit. Its members equal those of QoSPolicyKind, but print as those of rclpy's C++ half."""
 
 
 class QoSPublisherEventType(IntEnum):
@@ -90,7 +81,7 @@ class QoSRequestedIncompatibleQoSInfo(NamedTuple):
 
     total_count: int = 0
     total_count_change: int = 0
-    last_policy_kind: int = rmw_qos_policy_kind_t.RMW_QOS_POLICY_INVALID
+    last_policy_kind: int = QoSPolicyKind.INVALID
 
 
 class QoSSubscriptionMatchedInfo(NamedTuple):
@@ -128,32 +119,22 @@ SUBSCRIPTION_EVENTS: _Events = {
 
 
 class EventHandler(Entity):
-    """Waits for events of one type of a publisher or subscription, `parent_impl` (in Iron and before `parent_handle`)."""
+    """Waits for events of one type of a publisher or subscription, `parent_impl`."""
 
     _kind = WAITABLE
     _is_default = False
 
     def __init__(
-        self,
-        *,
-        callback_group: CallbackGroup,
-        callback: Callable[[Any], Any],
-        event_type: IntEnum,
-        parent_impl: Any = None,
-        parent_handle: Any = None,
+        self, *, callback_group: CallbackGroup, callback: Callable[[Any], Any], event_type: IntEnum, parent_impl: Any
     ) -> None:
         super().__init__(callback, callback_group)
         self.event_type = event_type
-        parent = parent_impl or parent_handle
-        parent = getattr(parent, "_entity", parent)  # of a handle
-        publishes = hasattr(parent, "publish")
-        events = PUBLISHER_EVENTS if publishes else SUBSCRIPTION_EVENTS
-        if not isinstance(event_type, QoSPublisherEventType if publishes else QoSSubscriptionEventType):
-            what = "publisher" if publishes else "subscription"
-            known = ", ".join(each.name for each in sorted(events))
-            raise UnsupportedEventTypeError(f"a {what} has no events of type {event_type!r}; it has {known}")
-        kind, self._info = events[event_type]
-        self._tally = parent._end().listen(kind)
+        publishes = hasattr(parent_impl, "publish")
+        expected = QoSPublisherEventType if publishes else QoSSubscriptionEventType
+        if not isinstance(event_type, expected):
+            raise UnsupportedEventTypeError(f"one of {expected.__name__} is expected, got {event_type!r}")
+        kind, self._info = (PUBLISHER_EVENTS if publishes else SUBSCRIPTION_EVENTS)[event_type]
+        self._tally = parent_impl._end().listen(kind)
         self._tally.wake = self._signal
 
     def __repr__(self) -> str:
@@ -186,7 +167,6 @@ class _EventCallbacks:
 
     def create_event_handlers(self, callback_group: CallbackGroup, entity: Any, topic_name: str) -> list[EventHandler]:
         """Handlers for all callbacks that were given, and for those that stand in for one that was not."""
-        entity = getattr(entity, "_entity", entity)
 
         def warn(event: Any) -> None:
             policy = qos_policy_name_from_kind(event.last_policy_kind)
@@ -246,9 +226,7 @@ def checked_callbacks(callbacks: Any, expected: type[_EventCallbacks]) -> Any:
     """The callbacks that a program gives a publisher or subscription, or the usual ones. Raises TypeError."""
     if callbacks is None:
         return expected()
-    if not isinstance(callbacks, expected) and (
-        isinstance(callbacks, _EventCallbacks) or not hasattr(callbacks, "create_event_handlers")
-    ):
+    if not isinstance(callbacks, expected):
         hint = f"{expected.__name__}(deadline=self.on_deadline)"
         raise TypeError(f"event_callbacks must be {expected.__name__}, got {callbacks!r}: try event_callbacks={hint}")
     return callbacks

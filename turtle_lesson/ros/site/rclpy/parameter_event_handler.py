@@ -32,58 +32,61 @@ class ParameterEventCallbackHandle:
     callback: Callable[[Any], Any]
 
 
-class ParameterEventHandler:
+class _Callbacks:
+    """Keeps the callbacks, and calls those that an event concerns."""
+
+    def __init__(self) -> None:
+        self.parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
+        self.event_callbacks: list[ParameterEventCallbackHandle] = []
+
+    def event_callback(self, event: Any) -> None:
+        """Call what an event concerns."""
+        for (parameter_name, node_name), handles in list(self.parameter_callbacks.items()):
+            parameter = ParameterEventHandler.get_parameter_from_event(event, parameter_name, node_name)
+            if parameter is not None:
+                for handle in list(handles):
+                    handle.callback(parameter)
+        for each in list(self.event_callbacks):
+            each.callback(event)
+
+    def add_parameter_callback(
+        self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]
+    ) -> ParameterCallbackHandle:
+        """Have `callback(parameter)` called for a parameter of a node, which is given by its full name."""
+        handle = ParameterCallbackHandle(parameter_name, node_name, callback)
+        self.parameter_callbacks.setdefault((parameter_name, node_name), []).insert(0, handle)
+        return handle
+
+    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
+        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+        key = (handle.parameter_name, handle.node_name)
+        handles = self.parameter_callbacks.get(key, [])
+        if handle not in handles:
+            raise RuntimeError(GONE)
+        handles.remove(handle)
+        if not handles:
+            del self.parameter_callbacks[key]
+
+    def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
+        """Have `callback(event)` called for each event."""
+        handle = ParameterEventCallbackHandle(callback)
+        self.event_callbacks.insert(0, handle)
+        return handle
+
+    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
+        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+        if handle not in self.event_callbacks:
+            raise RuntimeError(GONE)
+        self.event_callbacks.remove(handle)
+
+
+class ParameterEventHandler(_Callbacks):
     """Listens on /parameter_events with a node that is spun. Its callbacks run in that subscription's callback group.
 
     The newest callback is called first; those for one parameter go before those for whole events.
     """
 
-    class Callbacks:
-        """Keeps the callbacks, and calls those that an event concerns."""
-
-        def __init__(self) -> None:
-            self.parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
-            self.event_callbacks: list[ParameterEventCallbackHandle] = []
-
-        def event_callback(self, event: Any) -> None:
-            """Call what an event concerns."""
-            for (parameter_name, node_name), handles in list(self.parameter_callbacks.items()):
-                parameter = ParameterEventHandler.get_parameter_from_event(event, parameter_name, node_name)
-                if parameter is not None:
-                    for handle in list(handles):
-                        handle.callback(parameter)
-            for each in list(self.event_callbacks):
-                each.callback(event)
-
-        def add_parameter_callback(
-            self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]
-        ) -> ParameterCallbackHandle:
-            """Have `callback(parameter)` called for a parameter of a node, which is given by its full name."""
-            handle = ParameterCallbackHandle(parameter_name, node_name, callback)
-            self.parameter_callbacks.setdefault((parameter_name, node_name), []).insert(0, handle)
-            return handle
-
-        def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
-            """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-            key = (handle.parameter_name, handle.node_name)
-            handles = self.parameter_callbacks.get(key, [])
-            if handle not in handles:
-                raise RuntimeError(GONE)
-            handles.remove(handle)
-            if not handles:
-                del self.parameter_callbacks[key]
-
-        def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
-            """Have `callback(event)` called for each event."""
-            handle = ParameterEventCallbackHandle(callback)
-            self.event_callbacks.insert(0, handle)
-            return handle
-
-        def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
-            """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-            if handle not in self.event_callbacks:
-                raise RuntimeError(GONE)
-            self.event_callbacks.remove(handle)
+    Callbacks = _Callbacks
 
     def __init__(
         self,
@@ -98,11 +101,11 @@ class ParameterEventHandler:
 
         self.node = node
         self.qos_profile = qos_profile
-        self._callbacks = ParameterEventHandler.Callbacks()
+        super().__init__()
         self.parameter_event_subscription = node.create_subscription(
             ParameterEvent,
             "/parameter_events",
-            self._callbacks.event_callback,
+            self.event_callback,
             qos_profile,
             callback_group=callback_group,
             event_callbacks=event_callbacks,
@@ -139,16 +142,4 @@ class ParameterEventHandler:
             node_name = self.node.get_fully_qualified_name()
         elif not node_name.startswith("/"):
             node_name = f"{self.node.get_namespace().rstrip('/')}/{node_name}"
-        return self._callbacks.add_parameter_callback(parameter_name, node_name, callback)
-
-    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
-        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-        self._callbacks.remove_parameter_callback(handle)
-
-    def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
-        """Have `callback(event)` called for each rcl_interfaces/msg/ParameterEvent."""
-        return self._callbacks.add_parameter_event_callback(callback)
-
-    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
-        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-        self._callbacks.remove_parameter_event_callback(handle)
+        return super().add_parameter_callback(parameter_name, node_name, callback)
