@@ -231,8 +231,6 @@ WRONG = {
     "an older format": lambda text: text.replace('format="3"', 'format="2"'),
     "two exports": lambda text: text.replace("<export>", "<export/><export>"),
     "an author's odd e-mail": lambda text: text.replace("  <license>", '  <author email="x">x</author>\n  <license>'),
-    "an odd attribute": lambda text: text.replace("<depend>", '<depend since="2">'),
-    "a tag inside": lambda text: text.replace("rclpy<", "rclpy<b/><"),
     "the same twice": lambda text: text.replace("<depend>rclpy", "<depend>rclpy</depend><depend>rclpy"),
     "another outermost tag": lambda text: text.replace("package format", "pack format").replace(
         "</package>", "</pack>"

@@ -217,13 +217,6 @@ def test_symlink_install(package: Path, world: World, tmp_path: Path) -> None:
         ("package.xml", 'format="3"', "", 1, 'Write <package format="3"> in the second line'),
         ("package.xml", 'format="3"', 'format="4"', 1, "Unable to handle package.xml format version '4'"),
         ("package.xml", "<export>", "<export/><export>", 1, 'must not contain more than one "export" tags'),
-        (
-            "package.xml",
-            "<depend>rclpy",
-            "<depend since='2'>rclpy",
-            1,
-            'The "depend" tag must not have the following attr',
-        ),
         ("package.xml", "exec_depend>", "exec_dependd>", 1, "Did you mean 'exec_depend'?"),
         ("package.xml", "<version>0.0.0", "<version>1", 1, 'Package version "1" does not follow version conventions'),
     ],

@@ -89,11 +89,10 @@ def test_an_ament_python_package(folder: Path) -> None:
 
 
 def test_cpp_files(folder: Path) -> None:
-    create("w --node-name my_node --library-name arm --dependencies rclcpp")
-    assert {path.name for path in (folder / "w/src").iterdir()} == {"my_node.cpp", "arm.cpp"}
-    assert (folder / "w/include/w/arm.hpp").is_file()
+    create("w --node-name my_node --dependencies rclcpp")
+    assert {path.name for path in (folder / "w/src").iterdir()} == {"my_node.cpp"}
     text = (folder / "w/CMakeLists.txt").read_text()
-    assert "add_executable(my_node src/my_node.cpp)" in text and "add_library(arm src/arm.cpp)" in text
+    assert "add_executable(my_node src/my_node.cpp)" in text
     assert "ament_target_dependencies(\n  my_node\n  rclcpp\n)" in text
 
 
@@ -126,4 +125,4 @@ def test_licences_are_listed(folder: Path) -> None:
 
 def test_odd_names_are_refused() -> None:
     assert "cannot be the name of a program" in create("x --node-name 'my node'")[2]
-    assert "an ament_python package cannot have" in create("x --build-type ament_python --library-name arm")[2]
+    assert "C++ is not compiled here" in create("x --library-name arm")[2]

@@ -294,20 +294,6 @@ def test_a_subpackage_is_installed_if_it_is_listed(py_demo: Path, world: World, 
     assert sorted(path.name for path in installed.iterdir()) == ["__init__.py", "names.py", "words.txt"]
 
 
-def test_what_else_setuptools_takes(py_demo: Path, world: World) -> None:
-    """Entry points in one text, a data file without a folder."""
-    with_tools(py_demo, "['py_demo', 'py_demo.tools']")
-    text = (py_demo / "setup.py").read_text()
-    entries = "entry_points='[console_scripts]\\nhello = py_demo.hello:main\\n[gui_scripts]\\nwindow=py_demo.hello:main',\n)\n"
-    (py_demo / "setup.py").write_text(text[: text.index("entry_points=")] + entries)
-    change(py_demo / "setup.py", "data_files=[", "data_files=['setup.cfg',")
-    answer = colcon(world)
-    assert (answer.code, answer.err) == (0, "")
-    source_in(world)
-    assert started(world, "py_demo", "hello") == started(world, "py_demo", "window") == "Hi from py_demo.\n"
-    assert Path("install/py_demo/setup.cfg").is_file()
-
-
 def test_scripts_run_where_they_lie(py_demo: Path) -> None:
     with_tools(py_demo, "['py_demo', 'py_demo.tools'], scripts=['scripts/greet.py']")
     lesson = turtle_lesson.start(package=py_demo, simulator=False)
@@ -352,6 +338,7 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
         ),
         (SETUP.format("entry_points={'console_scripts': 5}"), "Invalid entry point"),
         (SETUP.format("entry_points=[5]"), "entry_points must be a dictionary"),
+        (SETUP.format("entry_points='[console_scripts]'"), "entry_points must be a dictionary"),
     ],
 )
 def test_a_setup_py_full_of_nonsense(

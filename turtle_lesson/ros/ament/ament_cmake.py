@@ -97,7 +97,7 @@ class _Build:
             for item in install_items(self.found, entry, self.hints)
         ]
         items += [*self.python, *interface_items(self.found, self.interfaces)] if self.checks else self.python
-        check_targets(items)
+        check_targets(items, self.found.name)
         self.hints += self._advice(items)
         stdout = [f"-- Found {name}" for name in sorted(self.seen)]
         return Outcome(

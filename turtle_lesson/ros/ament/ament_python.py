@@ -65,7 +65,7 @@ class _Build:
         if self.setup.get("cmdclass"):
             self.hints.append("setup.py has commands of its own (cmdclass=…), which are not carried out here.")
         items = [*self._modules(), *self._data(), *self._programs()]
-        check_targets(items)
+        check_targets(items, self.found.name)
         seconds = 1.7 if self.environment.symlink else 1.3
         text = with_hint("".join(self.warnings), self.hints)
         return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies)
@@ -145,25 +145,18 @@ class _Build:
         items = []
         given = self.setup.get("data_files") or []
         for entry in given if isinstance(given, list) else [given]:
-            if isinstance(entry, str):
-                items.append(self._data_file("", entry))
-                continue
-            files = entry[1] if isinstance(entry, list) and len(entry) == 2 else None
-            if isinstance(files, str) and isinstance(entry[0], str):
-                hint = f"data_files needs a list of files, even for a single one: write ('{entry[0]}', ['{files}'])."
+            place, files = entry if isinstance(entry, list) and len(entry) == 2 else ("", None)
+            if isinstance(files, str):
+                hint = f"data_files needs a list of files, even for a single one: write ('{place}', ['{files}'])."
                 raise _refused("AssertionError", hint)
-            if not isinstance(files, list) or not all(isinstance(name, str) for name in [entry[0], *files]):
+            if not isinstance(files, list) or not all(isinstance(name, str) for name in [place, *files]):
                 text = f"error: data_files has {str(entry)[:80]}, which is not of the form ('folder', ['file', …])"
                 raise _refused(text, "Write ('share/' + package_name, ['package.xml']),.")
-            items += [self._data_file(entry[0], name) for name in files]
+            items += [self._data_file(place, name) for name in files]
         return self._with_markers(items)
 
     def _data_file(self, place: str, name: str) -> Item:
         source = self.found.path / name
-        parts = PurePosixPath(place.replace(os.sep, "/"))
-        if parts.is_absolute() or ".." in parts.parts or ":" in place:
-            text = f"error: data_files: '{place}' lies outside the package's install folder"
-            raise _refused(text, f"Use a place such as 'share/{self.found.name}'.")
         if Path(name).is_absolute():
             text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute"
             inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
@@ -172,7 +165,7 @@ class _Build:
             hint = f"setup.py names it in data_files. {did_you_mean(name, self._there('*'))}".strip()
             raise _refused(f"error: can't copy '{name}': doesn't exist or not a regular file", hint)
         can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
-        return Item((parts / source.name).as_posix(), source, program=can_run)
+        return Item((PurePosixPath(place.replace(os.sep, "/")) / source.name).as_posix(), source, program=can_run)
 
     def _with_markers(self, items: list[Item]) -> list[Item]:
         """The items and what ROS 2 finds the package by, which colcon adds where setup.py does not name it."""
@@ -197,19 +190,12 @@ class _Build:
     # -- programs --------------------------------------------------------------------------------------------------
 
     def _entries(self) -> dict[str, list[str]]:
-        """The lines of each group of entry points, which may also be one text with a `[group]` above its lines."""
-        given = self.setup.get("entry_points") or {}
-        groups = _sections(given) if isinstance(given, str) else given
+        """The lines of each group of entry points."""
+        groups = self.setup.get("entry_points") or {}
         if not isinstance(groups, dict):
             hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
             raise _refused("error: entry_points must be a dictionary", hint)
-        found: dict[str, list[str]] = {}
-        for group, lines in groups.items():
-            if isinstance(lines, str):
-                found[str(group)] = [line for line in lines.splitlines() if line.strip()]
-            else:
-                found[str(group)] = list(map(str, lines if isinstance(lines, list) else [lines] if lines else []))
-        return found
+        return {group: list(map(str, lines if isinstance(lines, list) else [lines])) for group, lines in groups.items()}
 
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)
@@ -272,13 +258,3 @@ def _imports(module: str, function: str) -> str:
 def _texts(given: Any) -> list[str]:
     """The texts of an option that may be a list, a text or left out."""
     return [given] if isinstance(given, str) else [each for each in given or [] if isinstance(each, str)]
-
-
-def _sections(text: str) -> dict[str, list[str]]:
-    groups: dict[str, list[str]] = {}
-    for line in filter(None, map(str.strip, text.splitlines())):
-        if line.startswith("[") and line.endswith("]"):
-            groups[line[1:-1].strip()] = []
-        elif groups and not line.startswith(("#", ";")):
-            groups[list(groups)[-1]].append(line)
-    return groups

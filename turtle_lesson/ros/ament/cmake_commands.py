@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import dropwhile
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from ..idl import names
 from ..idl.definition import parse
@@ -48,7 +48,7 @@ class Entry:
 def install_entries(found: Found, command: Command, *, cpp: bool) -> list[Entry]:
     """What one `install(…)` names, where the package builds C++ without its targets.
 
-    Raises BuildFailure where CMake would refuse it, or the files go elsewhere than into the package's install folder.
+    Raises BuildFailure where CMake would refuse it.
     """
     kind, *given = command.args or ("",)
     files = until(_INSTALL_WORDS, given)
@@ -71,11 +71,6 @@ def install_entries(found: Found, command: Command, *, cpp: bool) -> list[Entry]
     if not destination:
         hint = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}."
         raise refused(f"install {kind} given no DESTINATION!", command.where, hint)
-    place = PurePosixPath(destination)
-    if place.is_absolute() or ".." in place.parts or ":" in destination:
-        text = f"DESTINATION {destination} lies outside the package's install folder"
-        hint = "Use lib/${PROJECT_NAME} for programs and share/${PROJECT_NAME} for everything else: "
-        raise refused(text, command.where, f"{hint}share/{found.name}.")
     return [
         Entry(
             kind=kind,

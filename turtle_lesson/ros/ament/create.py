@@ -49,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--maintainer-email", help="e-mail address of the maintainer")
     parser.add_argument("--maintainer-name", default=USER, help="name of the maintainer")
     parser.add_argument("--node-name", help="also create a first program with this name")
-    parser.add_argument("--library-name", help="also create a C++ library with this name")
+    parser.add_argument("--library-name", help="not available here: C++ is not compiled")
 
 
 def parse(words: list[str]) -> argparse.Namespace:
@@ -88,11 +88,10 @@ def _refusal(args: argparse.Namespace, cwd: Path) -> str:
     if (cwd / args.destination_directory / args.package_name).exists():
         advice = "Either remove the directory or choose a different destination directory or package name"
         return f"The directory already exists: {shown}\n{advice}"
-    for option, value in (("--node-name", args.node_name), ("--library-name", args.library_name)):
-        if value and not re.fullmatch(r"[A-Za-z_]\w*", value):
-            return f"{option} '{value}' cannot be the name of a program: use letters, digits and '_'"
-    if args.build_type == "ament_python" and args.library_name:
-        return "--library-name makes a C++ library, which an ament_python package cannot have"
+    if args.node_name and not re.fullmatch(r"[A-Za-z_]\w*", args.node_name):
+        return f"--node-name '{args.node_name}' cannot be the name of a program: use letters, digits and '_'"
+    if args.library_name:
+        return "--library-name makes a C++ library, and C++ is not compiled here"
     return ""
 
 
@@ -120,7 +119,6 @@ class _Creation:
             "build type": args.build_type,
             "dependencies": self.dependencies,
             "node_name": args.node_name,
-            "library_name": args.library_name,
         }
         self._say("going to create a new package")
         for what, value in lines.items():
@@ -200,19 +198,14 @@ class _Creation:
             self._file(filled("program.py", name=name), name, f"{node}.py")
 
     def _cmake_files(self) -> None:
-        name, node, library = self.name, self.args.node_name, self.args.library_name
+        name, node = self.name, self.args.node_name
         self._say("creating source and include folder")
         self._folder("src")
         self._folder("include", name)
         ament = self.args.build_type == "ament_cmake"
-        self._file(cmake_lists(name, self.dependencies, ament=ament, node=node, library=library), "CMakeLists.txt")
+        self._file(cmake_lists(name, self.dependencies, ament=ament, node=node), "CMakeLists.txt")
         if node:
             self._file(filled("program.cpp", name=name), "src", f"{node}.cpp")
-        if library:
-            guard = f"{name}__{library}_HPP_".upper()
-            parts = {"name": name, "library": library, "kind": "".join(map(str.capitalize, library.split("_")))}
-            self._file(filled("library.hpp", guard=guard, **parts), "include", name, f"{library}.hpp")
-            self._file(filled("library.cpp", **parts), "src", f"{library}.cpp")
 
 
 def cmake_lists(
@@ -221,9 +214,8 @@ def cmake_lists(
     *,
     ament: bool = True,
     node: str | None = None,
-    library: str | None = None,
 ) -> str:
-    """A `CMakeLists.txt`, for a C++ program `node` and a library where they are asked for."""
+    """A `CMakeLists.txt`, for a C++ program `node` where it is asked for."""
     names = "".join(f"\n  {each}" for each in dependencies)
     linked = f"ament_target_dependencies(\n  {{}}{names}\n)\n" if names and ament else ""
     parts = [filled("CMakeLists.txt", name=name)]
@@ -232,8 +224,6 @@ def cmake_lists(
     parts += [f"find_package({each} REQUIRED)\n" for each in dependencies]
     if not dependencies:
         parts.append("# write one line for each further package: find_package(<dependency> REQUIRED)\n")
-    if library:
-        parts.append(filled("CMakeLists.txt: library", library=library) + linked.format(library))
     if node:
         parts.append(filled("CMakeLists.txt: program", node=node) + linked.format(node))
         parts.append(filled("CMakeLists.txt: installed program", node=node))

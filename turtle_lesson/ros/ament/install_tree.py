@@ -88,12 +88,13 @@ def with_hint(text: str, hints: Iterable[str]) -> str:
     return f"{text}{lines}" if lines else text
 
 
-def check_targets(items: Iterable[Item]) -> None:
+def check_targets(items: Iterable[Item], name: str) -> None:
     """Nothing is installed outside of the package's own folder. Raises BuildFailure where something would be."""
     for item in items:
         place = PurePosixPath(item.target)
-        if place.is_absolute() or ".." in place.parts or "\0" in item.target:
-            raise BuildFailure(f"error: '{item.target}' lies outside the package's install folder\n")
+        if place.is_absolute() or ".." in place.parts or "\0" in item.target or ":" in place.parts[0]:
+            text = f"error: '{item.target}' lies outside the package's install folder\n"
+            raise BuildFailure(text, f"Programs go to lib/{name}, and everything else to share/{name}.")
 
 
 def prepare(install: Path, build: Path, log: Path, layout: str = "isolated") -> None:

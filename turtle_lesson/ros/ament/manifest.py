@@ -176,18 +176,6 @@ _IN_ALL = {
 _SINCE_2 = {"depend", "build_export_depend", "buildtool_export_depend", "exec_depend", "doc_depend"}
 _SINCE_3 = {"group_depend", "member_of_group"}
 _TAGS = {"1": _IN_ALL | {"run_depend"}, "2": _IN_ALL | _SINCE_2, "3": _IN_ALL | _SINCE_2 | _SINCE_3}
-_VERSIONS = {"version_lt", "version_lte", "version_eq", "version_gte", "version_gt"}
-_ATTRIBUTES = {
-    **dict.fromkeys((*_DEPENDS, "run_depend", "conflict", "replace"), _VERSIONS),
-    "maintainer": {"email"},
-    "author": {"email"},
-    "url": {"type"},
-}
-_ATTRIBUTES_SINCE_3 = {
-    **{tag: {"condition"} for tag in (*_DEPENDS, *_SINCE_3, "conflict", "replace")},
-    "version": {"compatibility"},
-    "license": {"file"},
-}
 _EMAIL = re.compile(r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}")
 
 
@@ -207,7 +195,7 @@ def faults_in(root: ElementTree.Element) -> list[str]:
     if tags := sorted({child.tag for child in root if isinstance(child.tag, str)} - _TAGS[version]):
         start = f'The manifest of package "{name}" (with format version {version})'
         return [f"{start} must not contain the following tags: {', '.join(tags)}"]
-    return _redundant(root) + _odd(root) or _values(root, name)
+    return _redundant(root) or _values(root, name)
 
 
 def hint_for(fault: str) -> str:
@@ -237,21 +225,6 @@ def _redundant(root: ElementTree.Element) -> list[str]:
         parts = ("build_depend", "build_export_depend", "exec_depend")
         if others := [tag for tag in parts if name in _texts(root, tag) or generic.count(name) > 1]:
             found.append(f"The generic dependency on '{name}' is redundant with: {', '.join(others)}")
-    return found
-
-
-def _odd(root: ElementTree.Element) -> list[str]:
-    """Attributes and inner tags where there must not be any."""
-    found = []
-    for child in root:
-        allowed = _ATTRIBUTES.get(child.tag, set())
-        if root.get("format") == "3":
-            allowed = allowed | _ATTRIBUTES_SINCE_3.get(child.tag, set())
-        if odd := [each for each in child.attrib if each not in allowed]:
-            found.append(f'The "{child.tag}" tag must not have the following attributes: {", ".join(odd)}')
-        if len(child) and child.tag not in {"description", "export"}:
-            inner = ", ".join(str(each.tag) for each in child if isinstance(each.tag, str))
-            found.append(f'The "{child.tag}" tag must not contain the following children: {inner}')
     return found
 
 
@@ -292,8 +265,6 @@ def _values(root: ElementTree.Element, name: str) -> list[str]:
 _HINTS = {
     "format version '": 'Write <package format="3">.',
     'more than one "export"': "Put everything that is exported into one <export>.",
-    "following attributes": "Remove them; only the text between the tags counts.",
-    "following children": "Close the tag before the next one begins.",
     'exactly one "': "Write that tag once, directly inside <package>.",
     "naming conventions": "A name has small letters, digits and '_', and begins with a letter.",
     "version conventions": "A version is three numbers, such as <version>0.1.0</version>.",

@@ -8,7 +8,6 @@ harm; it imports nothing of this library.
 from __future__ import annotations
 
 import json
-import logging
 import os
 import sys
 import traceback
@@ -99,11 +98,7 @@ def _put_stand_ins(given: list[dict[str, Any]]) -> None:
     finders = {"find_packages": find_packages, "find_namespace_packages": find_packages}
     for name in ("setuptools", "distutils", "distutils.core"):
         _put(name, setup=setup, Command=Command, **finders)
-    # distutils.log is a thin layer above logging (setuptools' _distutils/log.py); what it logs is seen nowhere here.
-    words = ("debug", "info", "warning", "error", "fatal", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
-    set_level = logging.getLogger().setLevel
-    levels = {word: getattr(logging, word) for word in words} | {"warn": logging.warning}
-    _put("distutils.log", set_threshold=set_level, set_verbosity=set_level, **levels)
+    _put("distutils.log", __getattr__=lambda name: lambda *args: None)  # what is logged is seen nowhere here
     for package in ("setuptools", "distutils"):
         _put(f"{package}.command")
         for name in ("build_ext", "build_py", "develop", "egg_info", "install", "sdist", "test"):

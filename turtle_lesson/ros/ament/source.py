@@ -320,14 +320,11 @@ def _find(world: World, package: str | Path) -> Found:
     if name in here:
         return here[name]
     known = {each.name: each.source for each in world.packages if each.source is not None}
-    source = known.get(name)
-    if source is None and name == "robot_controller":
-        source = Path(__file__).resolve().parents[2] / "robot_controller"
-    if source is None:
-        names = {*here, *known, "robot_controller"}
+    if name not in known:
+        names = {*here, *known}
         hint = did_you_mean(name, names) or f"There are: {', '.join(sorted(names))}."
         raise PackageError(f"the source of the package {name!r} is not known", hint=hint)
-    return read_found(source, source.parent)
+    return read_found(known[name], known[name].parent)
 
 
 def _check_target(found: Found, target: Path, overwrite: bool) -> None:
