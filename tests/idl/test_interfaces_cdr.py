@@ -123,21 +123,21 @@ def test_garbage_is_read_as_some_message_or_refused(garbage, message):
 
 def test_bounds_hold_for_what_comes_in():
     short, long = message_class("int32[<=2] v"), message_class("int32[<=3] v")
-    with pytest.raises(ValueError, match="3 elements in a sequence of at most 2"):
+    with pytest.raises(ValueError, match=r"3 elements in int32\[<=2\]"):
         deserialize(serialize(long(v=[1, 2, 3])), short)
     with pytest.raises(ValueError, match="6 characters in a string of at most 5"):
         deserialize(serialize(String(data="abcdef")), message_class("string<=5 data"))
     names = serialize(message_class("string[] v")(v=["abcdef"]))
     with pytest.raises(ValueError, match="6 characters in a string of at most 5"):
         deserialize(names, message_class("string<=5[] v"))
-    with pytest.raises(ValueError, match="3 elements in a sequence of at most 2"):
+    with pytest.raises(ValueError, match=r"3 elements in byte\[<=2\]"):
         deserialize(serialize(message_class("byte[] v")(v=[b"a"] * 3)), message_class("byte[<=2] v"))
 
 
 def test_lists_that_grew_too_long_are_not_sent():
     message = message_class("string[<=1] v")(v=["a"])
     message.v.append("b")
-    with pytest.raises(ValueError, match="2 elements in a sequence of at most 1"):
+    with pytest.raises(ValueError, match=r"2 elements in string\[<=1\]"):
         serialize(message)
 
 
@@ -153,7 +153,7 @@ def test_wide_strings_travel_as_utf_16_in_four_bytes_a_unit():
 @pytest.mark.parametrize(
     ("tail", "reason"),
     [
-        ("0100000000000100", "larger than two bytes"),
+        ("0100000000000100", "greater than maximum"),
         ("010000003dd80000", "unexpected end of data|truncated data"),  # half of a character
         ("ffffffff", ""),
     ],

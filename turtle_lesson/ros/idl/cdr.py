@@ -1,32 +1,68 @@
-"""CDR: the bytes of a message as ROS 2 sends and records them, little endian with the 4-byte header.
+"""CDR: the bytes of a message as ROS 2 sends and records them, with a 4-byte header that says in which order they stand.
 
-`rosbags` does the work. It reads the attributes of any object, if arrays are numpy arrays and bytes are
-numbers, so each message is shown to it as a plain portrait of itself; what it reads goes straight into our
-own classes. What it does not know is described at the end.
+Facts: the OMG's XCDR1, as Fast-CDR 1 and rosidl_typesupport_fastrtps_cpp of Humble write it. A number lies at a multiple of its
+size; a string is its length with the closing zero, and its UTF-8; a wide string is the number of its UTF-16 units, each in
+four bytes; a sequence is its length and its elements; a message without fields is one byte.
 """
 
 from __future__ import annotations
 
+import struct
+import sys
 from array import array
 from collections.abc import Callable
-from functools import cache
-from math import isqrt
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
+from typing import Any
 
 from .checks import TYPE_CODES, numpy_name
 from .model import FieldType
-from .names import STRINGS
 
-if TYPE_CHECKING:
-    pass
+ORDER, UTF16 = ("<", "utf-16-le") if sys.byteorder == "little" else (">", "utf-16-be")
+"""The order of the bytes of this computer, in which messages are written."""
+
+HEADER = bytes((0, ORDER == "<", 0, 0))
+
+CODES = {**TYPE_CODES, "bool": "?", "byte": "c"}
+"""What `struct` calls the types."""
 
 
-# What DDS puts into a message without fields (rosidl_generator_c, EMPTY_STRUCTURE_REQUIRED_MEMBER_NAME).
-PLACEHOLDER = "structure_needs_at_least_one_member"
+class _Input:
+    """The bytes of a message, which are taken one after the other."""
 
-_names: WeakKeyDictionary[type, str] = WeakKeyDictionary()
+    def __init__(self, data: bytes) -> None:
+        if len(data) < len(HEADER):
+            raise ValueError("the header is missing")
+        self.order = "<" if data[1] & 1 else ">"
+        self._body = memoryview(data)[len(HEADER) :]
+        self._place = 0
+
+    def take(self, count: int, size: int = 1) -> memoryview:
+        """The next so many values of a size."""
+        if count == 0:
+            return self._body[:0]
+        start = self._place + -self._place % size
+        self._place = start + count * size
+        if self._place > len(self._body):
+            raise ValueError(f"{self._place - len(self._body)} bytes are missing")
+        return self._body[start : self._place]
+
+    def numbers(self, code: str, count: int) -> array[Any]:
+        """The next so many numbers."""
+        found = array(code)
+        found.frombytes(self.take(count, found.itemsize))
+        if self.order != ORDER:
+            found.byteswap()
+        return found
+
+    def end(self) -> None:
+        """Raise ValueError if there are more bytes than what may fill up a block of four."""
+        if len(self._body) - self._place > 3:
+            raise ValueError(f"{len(self._body) - self._place} bytes are left over")
+
+
+Write = Callable[[bytearray, Any], None]
+Read = Callable[[_Input], Any]
+Codec = tuple[Write, Read]
+"""Writes a value behind what is written already, and reads it."""
 
 
 def serialize(message: Any) -> bytes:
@@ -37,11 +73,13 @@ def serialize(message: Any) -> bytes:
     """
     if isinstance(message, type):
         raise TypeError(f"expected a message, got the class {message.__name__}")
-    name = _name(type(message))
+    write, _ = _codec(type(message))
+    body = bytearray()
     try:
-        return bytes(_store().serialize_cdr(_portrait(message), name, little_endian=True))
+        write(body, message)
     except Exception as error:
         raise ValueError(f"this {message._TYPE_NAME} cannot be written as CDR: {error}") from error
+    return HEADER + body
 
 
 def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any:
@@ -50,236 +88,129 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
     Raises TypeError where the class is none of a message, and ValueError where the bytes are cut short, too long or no such
     message.
     """
-    name = _name(message_class)
+    _, read = _codec(message_class)
     try:
-        return _store().deserialize_cdr(bytes(data), name)
+        source = _Input(bytes(data))
+        message = read(source)
+        source.end()
     except Exception as error:
-        reason = str(error).replace(name, message_class._TYPE_NAME).rstrip(".")
         raise ValueError(
             f"these {len(data)} bytes are not a message of type {message_class._TYPE_NAME} (cut short, or written with another"
-            f" definition?): {reason}"
+            f" definition?): {error}"
         ) from error
+    return message
 
 
-@cache
-def _store() -> Any:
-    from rosbags.typesys.store import Typestore
-
-    store: Any = Typestore()
-    store.fielddefs[WIDE] = ((), [("units", wide_string())])
-    store.types[WIDE] = from_units
-    return store
-
-
-def _name(message_class: Any) -> str:
-    """The name under which rosbags knows a class; each class has its own, since definitions change."""
+def _codec(message_class: Any) -> Codec:
+    """How messages of a class are written and read; each class keeps its own."""
     if not isinstance(message_class, type) or not hasattr(message_class, "_wire_copy"):
         hint = "; of a service, give .Request or .Response" if hasattr(message_class, "Request") else ""
         raise TypeError(f"expected a message class, got {message_class!r}{hint}")
-    if message_class not in _names:
-        _names[message_class] = _register(message_class)
-    return _names[message_class]
-
-
-def _register(message_class: Any) -> str:
-    members = message_class._DEFINITION.fields
-    kinds = message_class._KINDS
-    fields: list[Any] = [
-        (member.name, _description(member.type, kind.element_class))
-        for member, kind in zip(members, kinds, strict=True)
+    known: Codec | None = message_class.__dict__.get("_CODEC")
+    if known is not None:
+        return known
+    fields = [
+        (f"_{field.name}", *(_array if field.type.is_array else _single)(field.type, kind.element_class))
+        for field, kind in zip(message_class._DEFINITION.fields, message_class._KINDS, strict=True)  # type: ignore[attr-defined]
     ]
-    store: Any = _store()
-    name = f"{message_class._TYPE_NAME}#{len(store.types)}"
-    store.fielddefs[name] = ((), fields or [(PLACEHOLDER, base("uint8"))])
-    store.types[name] = _maker(message_class)
-    return name
 
+    def write(body: bytearray, message: Any) -> None:
+        for slot, put, _ in fields:
+            put(body, getattr(message, slot))
+        if not fields:
+            body.append(0)
 
-def _description(type_: FieldType, element_class: Any) -> Any:
-    """rosbags' description of a type."""
-    from rosbags.interfaces import Nodetype
-
-    if type_.base == "wstring":
-        element = named(WIDE) if type_.is_array else wide_string()
-    elif type_.is_primitive:
-        element = base("uint8" if type_.base in ("byte", "char") else type_.base)
-    else:
-        element = named(_name(element_class))
-    if not type_.is_array:
-        return element
-    if type_.is_fixed and type_.size is not None:
-        return long_array(_store(), element, type_.size) if _is_long(type_) else array_of(element, type_.size)
-    return Nodetype.SEQUENCE, (element, type_.size or 0)
-
-
-def _is_long(type_: FieldType) -> bool:
-    """Whether an array is told in parts."""
-    return type_.is_fixed and (type_.size or 0) > LONGEST and (not type_.is_primitive or type_.base in STRINGS)
-
-
-def _portrait(message: Any) -> SimpleNamespace:
-    fields = message._DEFINITION.fields
-    if not fields:
-        return SimpleNamespace(**{PLACEHOLDER: 0})
-    return SimpleNamespace(**{each.name: _shown(getattr(message, each.name), each.type) for each in fields})
-
-
-def _shown(value: Any, type_: FieldType) -> Any:
-    import numpy
-
-    if not type_.is_array:
-        if not type_.is_primitive:
-            return _portrait(value)
-        if type_.base == "wstring":
-            return to_units(value)
-        return value[0] if type_.base == "byte" else value
-    if type_.is_bounded and type_.size is not None and len(value) > type_.size:
-        raise ValueError(f"{len(value)} elements in a sequence of at most {type_.size}")
-    if not type_.is_primitive or type_.base in STRINGS:
-        shown = _shown_elements(value, type_)
-        return in_parts(shown) if _is_long(type_) else shown
-    if type_.base == "byte":
-        return numpy.frombuffer(b"".join(value), "uint8")
-    if type_.base == "bool":
-        return numpy.array(list(value), "bool")
-    return numpy.asarray(value, numpy_name(type_.base)).ravel()
-
-
-def _shown_elements(values: Any, type_: FieldType) -> list[Any]:
-    if not type_.is_primitive:
-        return [_portrait(each) for each in values]
-    return [SimpleNamespace(units=to_units(each)) for each in values] if type_.base == "wstring" else list(values)
-
-
-def _maker(message_class: Any) -> Callable[..., Any]:
-    """A function that makes a message of the values that rosbags has read, in the order of the fields."""
-    readers = [("_" + member.name, _reader(member.type)) for member in message_class._DEFINITION.fields]
-
-    def make(*values: Any) -> Any:
-        message = object.__new__(message_class)
-        for (slot, read), value in zip(readers, values, strict=False):
-            setattr(message, slot, value if read is None else read(value))
+    def read(source: _Input) -> Any:
+        message: Any = object.__new__(message_class)
+        for slot, _, get in fields:
+            setattr(message, slot, get(source))
+        if not fields:
+            source.take(1)
         return message
 
-    return make
+    message_class._CODEC = write, read  # type: ignore[attr-defined]
+    return write, read
 
 
-def _reader(type_: FieldType) -> Callable[[Any], Any] | None:
-    if not type_.is_array:
-        return (lambda value: bytes([value])) if type_.base == "byte" else _text_reader(type_)
-    if type_.base == "byte":
-        return lambda values: _limited([bytes([each]) for each in values], type_)
-    if type_.base == "bool":
-        return lambda values: _limited(values.tolist(), type_)
-    if not type_.is_primitive or (type_.string_bound is None and type_.base in STRINGS):
-        return lambda values: _limited(values, type_)
-    if type_.string_bound is not None:
-        check = _bounded_text(type_.string_bound)
-        return lambda values: _limited([check(each) for each in values], type_)
-    if type_.is_fixed:
-        return lambda values: values.copy()
-    code = TYPE_CODES[type_.base]
-    return lambda values: _limited(array(code, values.tobytes()), type_)
+def _single(type_: FieldType, element_class: type | None) -> Codec:
+    """How one value of a type is written and read, or an element of an array."""
+    if element_class is not None:
+        return _codec(element_class)
+    if type_.base in CODES:
+        return _number(CODES[type_.base])
+    put_length, get_length = _number("I")
+    bound = type_.string_bound
 
+    def write(body: bytearray, text: str) -> None:
+        letters = text.encode() + b"\0"
+        put_length(body, len(letters))
+        body += letters
 
-def _text_reader(type_: FieldType) -> Callable[[Any], str] | None:
-    check = None if type_.string_bound is None else _bounded_text(type_.string_bound)
-    if type_.base != "wstring":
-        return check
-    return from_units if check is None else lambda units: check(from_units(units))
+    def read(source: _Input) -> str:
+        return checked(str(source.take(get_length(source))[:-1], "utf-8"))
 
+    def write_wide(body: bytearray, text: str) -> None:
+        units = array("H", text.encode(UTF16))
+        put_length(body, len(units))
+        body += array("I", units).tobytes()
 
-def _bounded_text(bound: int) -> Callable[[str], str]:
-    def read(text: str) -> str:
-        if len(text) > bound:
+    def read_wide(source: _Input) -> str:
+        units = source.numbers("I", get_length(source))
+        return checked(array("H", units).tobytes().decode(UTF16))
+
+    def checked(text: str) -> str:
+        if bound is not None and len(text) > bound:
             raise ValueError(f"{len(text)} characters in a string of at most {bound}")
         return text
 
-    return read
+    return (write, read) if type_.base == "string" else (write_wide, read_wide)
 
 
-def _limited(values: Any, type_: FieldType) -> Any:
-    if type_.is_bounded and type_.size is not None and len(values) > type_.size:
-        raise ValueError(f"{len(values)} elements in a sequence of at most {type_.size}")
-    return values
+def _number(code: str) -> Codec:
+    structs = {order: struct.Struct(order + code) for order in "<>"}
+    pack, size = structs[ORDER].pack, structs[ORDER].size
+
+    def write(body: bytearray, value: Any) -> None:
+        body += bytes(-len(body) % size) + pack(value)
+
+    def read(source: _Input) -> Any:
+        return structs[source.order].unpack(source.take(1, size))[0]
+
+    return write, read
 
 
-# -- cdr shapes ---------------------------------------------------------------------------------------------------
-# What rosbags does not know, as something that it knows and that has the same bytes: wide strings, and long fixed
-# arrays.
-# A wide string is on the wire of Humble's Fast DDS the number of its UTF-16 units and then each unit in four bytes
-# (facts: rosidl_typesupport_fastrtps_cpp, Fast-CDR 1). A fixed array of strings or messages is a line of code per
-# element in what rosbags writes for itself, so a long one is told as one of arrays.
+def _array(type_: FieldType, element_class: type | None) -> Codec:
+    """How an array or sequence is written and read."""
+    put_length, get_length = _number("I")
+    put, get = _single(type_, element_class)
+    code = TYPE_CODES.get(type_.base) if type_.is_primitive else None
+    size = array(code or "b").itemsize
 
-WIDE = "wide string"
-"""The name under which rosbags knows an element of an array of wide strings."""
+    def check(length: int) -> None:
+        if type_.size is not None and (length != type_.size if type_.is_fixed else length > type_.size):
+            raise ValueError(f"{length} elements in {type_}")
 
-LONGEST = 64
-"""A fixed array with more strings or messages than these is told in parts."""
+    def write(body: bytearray, values: Any) -> None:
+        if code is None or not type_.is_fixed:  # an array of numpy keeps its size, in whatever shape
+            check(len(values))
+        if not type_.is_fixed:
+            put_length(body, len(values))
+        if code is None:
+            for value in values:
+                put(body, value)
+        elif numbers := values.tobytes():
+            body += bytes(-len(body) % size) + numbers
 
+    def read(source: _Input) -> Any:
+        length = type_.size if type_.is_fixed and type_.size is not None else get_length(source)
+        check(length)
+        if code is None:
+            return [get(source) for _ in range(length)]
+        found = source.numbers(code, length)
+        if not type_.is_fixed:
+            return found
+        import numpy
 
-def base(name: str) -> Any:
-    """rosbags' description of a primitive type."""
-    from rosbags.interfaces import Nodetype
+        return numpy.frombuffer(found, numpy_name(type_.base))
 
-    return Nodetype.BASE, (name, 0)
-
-
-def named(name: str) -> Any:
-    """rosbags' description of a type that was registered under a name."""
-    from rosbags.interfaces import Nodetype
-
-    return Nodetype.NAME, name
-
-
-def array_of(element: Any, size: int) -> Any:
-    """rosbags' description of exactly so many elements."""
-    from rosbags.interfaces import Nodetype
-
-    return Nodetype.ARRAY, (element, size)
-
-
-def wide_string() -> Any:
-    """rosbags' description of a wide string."""
-    from rosbags.interfaces import Nodetype
-
-    return Nodetype.SEQUENCE, (base("uint32"), 0)
-
-
-def to_units(text: str) -> Any:
-    """The UTF-16 units of a text; UnicodeEncodeError if it holds half a character."""
-    import numpy
-
-    return numpy.frombuffer(text.encode("utf-16-le"), "<u2").astype("uint32")
-
-
-def from_units(units: Any) -> str:
-    """The text of some UTF-16 units; ValueError if they are none."""
-    if len(units) and units.max() > 0xFFFF:
-        raise ValueError("a unit of a wide string is larger than two bytes")
-    text: str = units.astype("<u2").tobytes().decode("utf-16-le")
-    return text
-
-
-def long_array(store: Any, element: Any, size: int) -> Any:
-    """Description of a long fixed array: equal parts, and what is left over."""
-    length = isqrt(size)
-    part, whole = f"{length} of {element}", f"{size} of {element}"
-    store.fielddefs[part] = ((), [("values", array_of(element, length))])
-    store.types[part] = list
-    rest = [("rest", array_of(element, size % length))] if size % length else []
-    store.fielddefs[whole] = ((), [("parts", array_of(named(part), size // length)), *rest])
-    store.types[whole] = _joined
-    return named(whole)
-
-
-def in_parts(values: list[Any]) -> SimpleNamespace:
-    """The elements of a long fixed array, as rosbags is to see them."""
-    length = isqrt(len(values))
-    full = len(values) - len(values) % length
-    parts = [SimpleNamespace(values=values[start : start + length]) for start in range(0, full, length)]
-    return SimpleNamespace(parts=parts, rest=values[full:])
-
-
-def _joined(parts: Any, rest: Any = ()) -> list[Any]:
-    return [value for part in parts for value in part] + list(rest)
+    return write, read
