@@ -89,23 +89,16 @@ def test_getsignal_knows_what_was_set(run: Run) -> None:
     assert run(program) == ["refused"]
 
 
-def test_a_program_may_signal_itself_and_be_woken_by_an_alarm(world: World) -> None:
-    log: list[Any] = []
+def test_a_program_may_signal_itself(world: World) -> None:
+    log: list[str] = []
 
     def program() -> None:
-        for number in (signal.SIGUSR1, signal.SIGALRM):
-            signal.signal(
-                number, lambda number, _: log.append((signal.Signals(number).name, round(time.time() % 60, 1)))
-            )
+        signal.signal(signal.SIGUSR1, lambda number, _: log.append(signal.Signals(number).name))
         signal.raise_signal(signal.SIGUSR1)
-        assert signal.alarm(100) == 0
-        assert signal.alarm(2) == 100
-        signal.pause()
-        log.append("awake")
 
     world.spawn(program, name="program")
-    world.sim.run_until(5 * SECOND)
-    assert log == [("SIGUSR1", 0.0), ("SIGALRM", 2.0), "awake"]
+    world.sim.run_until(SECOND)
+    assert log == ["SIGUSR1"]
 
 
 def test_a_program_from_a_file_may_kill_itself(world: World, tmp_path: Path, capsys: Capture) -> None:
@@ -188,17 +181,17 @@ def test_so_is_multiprocessing(world: World, tmp_path: Path, capsys: Capture) ->
 
 def test_ways_to_end_a_program_end_that_alone(world: World, tmp_path: Path, capsys: Capture) -> None:
     codes = {}
-    for end in ("exit(3)", "quit()", "os._exit(4)", "sys.exit('no')", "_thread.interrupt_main()"):
+    for end in ("exit(3)", "quit()", "os._exit(4)", "sys.exit('no')"):
         file = tmp_path / "program.py"
         file.write_text(
-            "import _thread, atexit, os, sys, threading, time\n"
+            "import atexit, os, sys, threading, time\n"
             "threading.Thread(target=time.sleep, args=(1,), daemon=True).start()\n"
             f"try:\n    {end}\nfinally:\n    print('cleaned up', {end!r})\n"
         )
         process = world.spawn(file, name="program")
         world.sim.run_until(world.now + SECOND)
         codes[end] = process.exit_code
-    assert list(codes.values()) == [3, 0, 4, 1, -2]
+    assert list(codes.values()) == [3, 0, 4, 1]
     assert "os._exit" not in capsys.readouterr().out
 
 

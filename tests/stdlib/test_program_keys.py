@@ -293,63 +293,9 @@ def test_all_listeners_hear_and_what_pynput_lacks_is_said(lesson: Lesson, begin:
     lesson.press("a")
     assert capsys.readouterr().out.splitlines() == ["one 'a'", "two 'a'"]
     begin("from pynput import mouse", "three")
-    assert "pynput.mouse is not available here: of pynput a program has keyboard.Listener" in capsys.readouterr().err
+    assert "mouse is not available here: of pynput a program has keyboard.Listener" in capsys.readouterr().err
 
 
-def test_curses_reads_keys_and_prints_the_lines_that_change(lesson: Lesson, begin: Begin, capsys: Any) -> None:
-    process = begin(
-        """
-        import curses
-
-        def main(screen):
-            curses.curs_set(0)
-            screen.nodelay(True)
-            screen.addstr(0, 0, "arrows drive, q ends", curses.A_BOLD)
-            speed = 0
-            while True:
-                key = screen.getch()
-                if key == curses.KEY_UP:
-                    speed += 1
-                elif key == ord("q"):
-                    break
-                elif key == -1:
-                    curses.napms(50)
-                screen.addstr(1, 0, f"speed {speed}")
-                screen.clrtoeol()
-                screen.refresh()
-            return speed
-
-        print("speed was", curses.wrapper(main))
-        """
-    )
-    lesson.run(0.2)
-    lesson.press("up", "up", "x", "q")
-    assert capsys.readouterr().out.splitlines() == [
-        "arrows drive, q ends", "speed 0", "speed 1", "speed 2", "speed was 2",
-    ]  # fmt: skip
-    assert process.exit_code == 0
-
-
-def test_curses_waits_for_keys_in_robot_time(lesson: Lesson, begin: Begin, capsys: Any) -> None:
-    begin(
-        """
-        import curses, time
-        screen = curses.initscr()
-        curses.noecho(); curses.cbreak(); screen.keypad(True); screen.timeout(500)
-        print(screen.getch(), time.monotonic() // 0.1 / 10)
-        screen.timeout(-1)
-        print(screen.getkey(), repr(screen.get_wch()), screen.getstr())
-        try:
-            screen.nodelay(1)
-            screen.getkey()
-        except curses.error as problem:
-            print(problem)
-        curses.endwin()
-        time.sleep(1)
-        print(input("name? "))
-        """
-    )
-    lesson.run(1)
-    lesson.press("left", "enter", "h", "i", "enter", every=0.1)
-    lesson.run(1, input=["Ada"])
-    assert capsys.readouterr().out.splitlines() == ["-1 0.5", "KEY_LEFT '\\n' b'hi'", "no input", "name? Ada", "Ada"]
+def test_curses_is_refused_with_advice(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    begin("import curses")
+    assert "curses is not available here: a program reads keys with termios, tty and select" in capsys.readouterr().err

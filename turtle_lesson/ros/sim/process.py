@@ -66,7 +66,6 @@ class Process:
         at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
         signal_handlers: what the program has set with `signal.signal`, by the number of the signal.
         signal_hook: what a library does about signals before that.
-        signals_handled: how many signals have called one of those.
         noticed: whether a notice has said that it holds up robot time.
     """
 
@@ -101,7 +100,6 @@ class Process:
         self.at_exit: list[Callable[[], None]] = []
         self.signal_handlers: dict[int, Any] = {}
         self.signal_hook: SignalHook | None = None
-        self.signals_handled = 0
         self.noticed = False
         self.error: BaseException | None = None
         self.is_notebook = False
@@ -179,7 +177,6 @@ class Process:
             self.kill()
 
     def _handle(self, handler: Callable[..., object], number: int, main: Strand) -> None:
-        self.signals_handled += 1
         if main is running_strand():
             handler(number, sys._getframe(2))
         else:

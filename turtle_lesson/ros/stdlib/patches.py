@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import atexit
 import importlib
+import os
 import queue
 import random
 import sys
@@ -134,6 +135,7 @@ PEEK = "waiting with a time limit reads a clock, which takes no virtual time"
 THREAD = "a thread of a simulated process is a strand of it, in virtual time"
 NAMES = "numbers in names count by process"
 LOOPS = "an asyncio loop that waits in virtual time"
+VARIABLES = "variables are a process's own"
 SIGNAL = "handlers are those of the simulated process"
 REFUSED = "what only a real operating system can do"
 MODULES = "looks into sys.modules, where the running program's modules must be"
@@ -188,19 +190,18 @@ TABLE: tuple[Patch, ...] = (
     *(_in_process("asyncio.events", each, LOOPS) for each in asyncio_loops.REPLACEMENTS),
     *(Patch("asyncio", e.__name__, _now("asyncio.events", e.__name__), LOOPS) for e in asyncio_loops.REPLACEMENTS),
     *(_in_process("signal", each, SIGNAL, cells=False) for each in process_state.REPLACEMENTS),
-    _in_process("signal", process_state.pause, SIGNAL),
     _function("os", process_state.kill, SIGNAL),
-    _in_process("_thread", process_state.interrupt_main, SIGNAL, cells=False),
     _in_process("os", process_state.exit_now, "ends the simulated process alone", "_exit", cells=False),
     _function("os", terminals.read, "reads the program's own terminal"),
+    *(_function("os", process_state.tell_system, VARIABLES, name) for name in ("putenv", "unsetenv")),
     *(_refused("os", name, subprocesses.no_process) for name in ("fork", "forkpty")),
     *(
         _refused("signal", name, process_state.no_signal)
-        for name in ("setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill")
+        for name in ("alarm", "pause", "setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill")
     ),
     *(_function(owner, process_state.showing(), MODULES, name) for owner, name in process_state.LOOKS_INTO_SYS_MODULES),
     _method("ipykernel.iostream:OutStream", "flush", in_no_strand, "waits for a real thread, in which no time passes"),
-    Patch("os:environ", "__class__", lambda real: process_state.ProcessEnviron, "variables are a process's own"),
+    Patch("os:environ", "__class__", lambda real: process_state.ProcessEnviron, VARIABLES),
     _function("atexit", process_state.register, AT_EXIT),
     _function("atexit", process_state.unregister, AT_EXIT),
     Patch("subprocess", "Popen", lambda real: subprocesses.WorldPopen, CHILD),
@@ -253,6 +254,7 @@ PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
     (threading.Thread(name="unused"), "_initialized _started", "starting a thread"),
     (threading.Thread(name="unused"), "_ident _native_id", "the number of a thread"),
     (threading.Thread(name="unused"), "_target", "telling a pool's threads from others"),
+    (os.environ, "_data", "variables of a process's own"),
     (ownership.module, "local", "the `threading.local` that is written in Python"),
     (threads.pool, "_worker", "telling a pool's threads from others"),
     (threads.pool, "_threads_queues", "ending a program's pools"),
@@ -377,7 +379,7 @@ def _put_in_place_of_modules() -> None:
     for module in (clocks.make_module(), *terminals.make_modules()):
         on_import[module.__name__] = partial(_itself, module)
     on_import.update({toolkit: partial(subprocesses.no_window, toolkit) for toolkit in subprocesses.WINDOWS})
-    on_import.update({name: partial(_key_library, f"make_{name}") for name in ("curses", "pynput")})
+    on_import.update(pynput=_pynput, curses=terminals.no_curses)
     on_import["tkinter"] = partial(_put_in_late, "tkinter")
     on_import["multiprocessing"] = on_import["concurrent"] = partial(_put_in_late, "multiprocessing.process")
 
@@ -387,12 +389,11 @@ def _itself(module: ModuleType) -> ModuleType:
 
 
 @cache
-def _key_library(maker: str) -> ModuleType:
-    """A library that reads keys, made once a program asks for it: few do."""
-    from . import key_libraries
+def _pynput() -> ModuleType:
+    """Made once a program asks for it: few do."""
+    from .key_listener import make_pynput
 
-    module: ModuleType = getattr(key_libraries, maker)()
-    return module
+    return make_pynput()
 
 
 def _put_in_late(module: str) -> None:

@@ -22,44 +22,23 @@ _RealEnviron: Any = type(os.environ)
 class ProcessEnviron(_RealEnviron):
     """The type of `os.environ`: which variables it holds depends on the process that reads it."""
 
-    def __getitem__(self, key: Any) -> Any:
+    @property
+    def _data(self) -> dict[Any, Any]:
         own = _own()
-        if own is None:
-            return super().__getitem__(key)
-        try:
-            return self.decodevalue(own[self.encodekey(key)])
-        except KeyError:
-            raise KeyError(key) from None
+        return vars(self)["_data"] if own is None else own
 
-    def __iter__(self) -> Iterator[Any]:
-        own = _own()
-        return super().__iter__() if own is None else map(self.decodekey, list(own))
 
-    def __len__(self) -> int:
-        own = _own()
-        return super().__len__() if own is None else len(own)
-
-    def __setitem__(self, key: Any, value: Any) -> None:
-        own = _own()
-        if own is None:
-            super().__setitem__(key, value)
-        else:
-            own[self.encodekey(key)] = self.encodevalue(value)
-
-    def __delitem__(self, key: Any) -> None:
-        own = _own()
-        if own is None:
-            super().__delitem__(key)
-        elif own.pop(self.encodekey(key), None) is None:
-            raise KeyError(key)
+def tell_system(real: Callable[..., None], *variable: Any) -> None:
+    """`os.putenv` and `os.unsetenv`, by which `os.environ` changes the variables of the real process."""
+    if _own() is None:
+        real(*variable)
 
 
 def encoded(variables: Mapping[str, str] | None, name: str, default: str) -> dict[Any, Any]:
     """These variables as a process keeps them, and one that has a default; without any, a copy of the caller's."""
     environ: Any = os.environ
     if variables is None:
-        own = _own()
-        kept = dict(environ._data if own is None else own)  # as they are: to decode and encode each takes 70 calls
+        kept = dict(environ._data)  # as they are: to decode and encode each takes 70 calls
     else:
         kept = {environ.encodekey(each): environ.encodevalue(text) for each, text in variables.items()}
     kept.setdefault(environ.encodekey(name), environ.encodevalue(default))
@@ -124,20 +103,13 @@ def random(real: Callable[[], float]) -> float:
     return strand.process.random.random() if strand is not None else real()
 
 
-class _NumpyState:
-    """The numpy RandomState of a process."""
-
-    def __init__(self, seed: str) -> None:
-        import numpy
-
-        self.source = numpy.random.RandomState(zlib.crc32(seed.encode()))
-
-
 def numpy_drawing(name: str) -> Callable[..., Any]:
     """One of numpy's old global functions that draws from a state of the process."""
 
     def draw(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
-        source = strand.process.state(_NumpyState, strand.process.seed).source
+        from numpy.random import RandomState
+
+        source = strand.process.state(RandomState, zlib.crc32(strand.process.seed.encode()))
         return getattr(source, name)(*arguments, **keywords)
 
     return draw
@@ -156,9 +128,6 @@ def default_rng(real: Callable[..., Any], seed: Any = None) -> Any:
 # after it. SIGINT comes from Ctrl-C and from launch, SIGTERM from launch; a process may send itself any signal. In a
 # cell that waits all these are the real ones: its signals are the kernel's.
 
-_UNTOUCHABLE = {getattr(module, "SIGKILL", -1), getattr(module, "SIGSTOP", -1)}
-_IGNORED_BY_DEFAULT = {getattr(module, name, -1) for name in ("SIGCHLD", "SIGURG", "SIGWINCH", "SIGCONT")}
-
 
 def signal(strand: Strand, signalnum: int, handler: Any) -> Any:
     """Set the handler of a signal; returns the one before."""
@@ -167,12 +136,10 @@ def signal(strand: Strand, signalnum: int, handler: Any) -> Any:
         raise ValueError("signal only works in main thread of the main interpreter")
     if not callable(handler) and handler not in (module.SIG_IGN, module.SIG_DFL):
         raise TypeError("signal handler must be signal.SIG_IGN, signal.SIG_DFL, or a callable object")
-    if number in _UNTOUCHABLE:
-        raise OSError(22, "Invalid argument")
     before = _handler_of(process, number)
     be_careful(process.simulation)
     process.signal_handlers.pop(number, None)
-    if handler is module.SIG_IGN or (handler is module.SIG_DFL and number in _IGNORED_BY_DEFAULT):
+    if handler is module.SIG_IGN:
         process.signal_handlers[number] = _ignore
     elif handler is module.SIG_DFL and number == module.SIGINT:
         process.signal_handlers[number] = lambda *_: process.kill()
@@ -198,71 +165,25 @@ def getsignal(strand: Strand, signalnum: int) -> Any:
 
 def raise_signal(strand: Strand, signalnum: int, /) -> None:
     """Send this process a signal."""
-    _send(strand.process, signalnum)
-
-
-def interrupt_main(strand: Strand, signum: int = module.SIGINT, /) -> None:
-    """Send this process SIGINT, or another signal."""
-    _send(strand.process, signum)
+    strand.process.send_signal(signalnum)
 
 
 def kill(real: Any, pid: int, signal: int, /) -> None:
-    """Send a process a signal: a program that was read from a file itself, all others whom they want."""
+    """Send a process a signal: that which runs a program's file itself, or (0 is no signal) one of the computer."""
     process = _own_process()
-    if process is not None and process.modules is not None and pid in (os.getpid(), process.pid):
-        _send(process, signal)
+    if signal and process is not None and process.modules is not None and pid in (os.getpid(), process.pid):
+        process.send_signal(signal)
     else:
         real(pid, signal)
 
 
-def _send(process: Process, number: int) -> None:
-    """Send a process a signal; 0 only asks whether it is there."""
-    if number and (number not in _IGNORED_BY_DEFAULT or number in process.signal_handlers):
-        process.send_signal(number)
-
-
-def pause(strand: Strand) -> None:
-    """Wait until a signal comes that is handled."""
-    be_careful(strand.simulation)
-    before = strand.process.signals_handled
-    while strand.process.signals_handled == before:
-        strand.park()
-
-
-def alarm(strand: Strand, seconds: int, /) -> int:
-    """SIGALRM after some seconds of robot time; returns what was left of an earlier one."""
-    return strand.process.state(_Alarm, strand.process).set(seconds)
-
-
-class _Alarm:
-    """The alarm clock of a process."""
-
-    def __init__(self, process: Process) -> None:
-        self._process = process
-        self._due: int | None = None
-
-    def set(self, seconds: int) -> int:
-        """Ring in so many seconds, or (0) not at all; the seconds that were left, as a whole number."""
-        simulation = self._process.simulation
-        left = 0 if self._due is None else self._due - simulation.now
-        self._due = simulation.now + seconds * NANOSECONDS if seconds else None
-        if self._due is not None:
-            simulation.call_later(self._due - simulation.now, self._ring, self._due)
-        return -(-left // NANOSECONDS)
-
-    def _ring(self, due: int) -> None:
-        if due == self._due:
-            self._due = None
-            self._process.send_signal(module.SIGALRM)
-
-
-REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal, alarm)
+REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal)
 
 
 def no_signal(what: str) -> NotImplementedError:
     """Why a simulated process cannot do with signals what only a real operating system can."""
     return NotImplementedError(
-        f"{what} is not available here; signal.signal, signal.alarm, signal.pause and signal.raise_signal are"
+        f"{what} is not available here; signal.signal, signal.raise_signal and os.kill are, and timers instead of alarms"
     )
 
 
