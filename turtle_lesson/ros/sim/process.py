@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import signal
 import sys
+from collections import Counter
 from collections.abc import Callable, Sequence
 from io import StringIO
 from random import Random
@@ -108,7 +109,7 @@ class Process:
         self.main_strand: Strand | None = None
         self.strands: list[Strand] = []
         self._on_exit = on_exit
-        self._idents = pid << 16
+        self._numbers: Counter[str] = Counter()
 
     def state(self, kind: type[S], *arguments: Any) -> S:
         """What a module keeps of this process: its one object of this class, made of the arguments when first asked for."""
@@ -147,10 +148,10 @@ class Process:
         self.strands.append(strand)
         return strand
 
-    def next_ident(self) -> int:
-        """A number for one more thread."""
-        self._idents += 1
-        return self._idents
+    def next_number(self, kind: str) -> int:
+        """The number of one more thing of a kind in this process, from 1."""
+        self._numbers[kind] += 1
+        return self._numbers[kind]
 
     def interrupt(self) -> None:
         """Do as Ctrl-C in a terminal would: SIGINT, which raises KeyboardInterrupt in the main strand, now."""

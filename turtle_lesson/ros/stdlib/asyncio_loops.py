@@ -11,7 +11,6 @@ import inspect
 import signal
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any
 
 from ..sim.errors import SimulationError
@@ -71,12 +70,8 @@ class Waiting:
         """Nothing is left to do."""
 
 
-@dataclass
-class _Asyncio:
-    """What asyncio keeps of a process: how many tasks were made, and the loop of each thread."""
-
-    tasks: int = 0
-    loops: dict[Strand, Any] = field(default_factory=dict)
+class _Loops(dict[Strand, Any]):
+    """The asyncio loops of a process, by its threads."""
 
 
 class VirtualEventLoop(asyncio.BaseEventLoop):
@@ -97,9 +92,7 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
     def create_task(self, coro: Any, **keywords: Any) -> Any:
         """As in asyncio, but each process counts its tasks for itself."""
         if keywords.get("name") is None:
-            own = self._process.state(_Asyncio)
-            own.tasks += 1
-            keywords["name"] = f"Task-{own.tasks}"
+            keywords["name"] = f"Task-{self._process.next_number('tasks')}"
         return super().create_task(coro, **keywords)
 
     def call_exception_handler(self, context: Any) -> None:
@@ -176,7 +169,7 @@ def new_event_loop(strand: Strand) -> Any:
 
 def set_event_loop(strand: Strand, loop: Any) -> None:
     """Set the loop of the running thread."""
-    strand.process.state(_Asyncio).loops[strand] = loop
+    strand.process.state(_Loops)[strand] = loop
 
 
 def get_event_loop(strand: Strand) -> Any:
@@ -184,7 +177,7 @@ def get_event_loop(strand: Strand) -> Any:
     loop = asyncio._get_running_loop()
     if loop is not None:
         return loop
-    loops = strand.process.state(_Asyncio).loops
+    loops = strand.process.state(_Loops)
     if strand is strand.process.main_strand and strand not in loops:
         loops[strand] = VirtualEventLoop(strand.process)
     if loops.get(strand) is None:

@@ -169,7 +169,6 @@ TABLE: tuple[Patch, ...] = (
             ("start", threads.start),
             ("join", threads.join),
             ("is_alive", threads.is_alive),
-            ("__repr__", threads.representation),
         )
     ),
     *(_in_process("threading", function, THREAD, name) for name, function in threads.IDENTITY.items()),
@@ -253,10 +252,8 @@ PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
     (threading.Event(), "_flag", "looking at an event without its lock"),
     (threading.Thread(name="unused"), "_initialized _started", "starting a thread"),
     (threading.Thread(name="unused"), "_ident _native_id", "the number of a thread"),
-    (threading.Thread(name="unused"), "_target", "telling a pool's threads from others"),
     (os.environ, "_data", "variables of a process's own"),
     (ownership.module, "local", "the `threading.local` that is written in Python"),
-    (threads.pool, "_worker", "telling a pool's threads from others"),
     (threads.pool, "_threads_queues", "ending a program's pools"),
     (threads.pool, "_global_shutdown_lock", "starting work in a pool"),
     (threads.pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),

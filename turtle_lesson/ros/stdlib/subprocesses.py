@@ -8,6 +8,7 @@ both are refused.
 
 from __future__ import annotations
 
+import codecs
 import io
 import os
 import signal
@@ -18,11 +19,11 @@ from typing import Any
 
 from .. import hooks
 from ..sim.process import Process
-from ..sim.simulation import NANOSECONDS
-from ..sim.strand import Strand, running_strand
+from ..sim.simulation import NANOSECONDS, NEVER
+from ..sim.strand import running_strand
 
 _Real = subprocess.Popen
-_STEP = 10_000_000  # how far (ns) the world is run between two looks, for a cell that waits
+_STEP = 1_000_000  # how far (ns) the world goes on between two looks at a child, as the real Popen.wait looks
 
 
 class WorldPopen(_Real):
@@ -30,7 +31,8 @@ class WorldPopen(_Real):
 
     __module__ = "subprocess"
     __qualname__ = "Popen"
-    _simulated = _terminated = False
+    _process: Process | None = None  # which runs the child in the world; None for one of the computer
+    _terminated = False
 
     def __init__(self, args: Any, *positional: Any, **given: Any) -> None:
         everything = {**dict(zip(_POSITIONAL, positional, strict=False)), **given}
@@ -38,12 +40,11 @@ class WorldPopen(_Real):
         if plan is None:
             super().__init__(args, *positional, **given)
         else:
-            self._simulated = True
             self._begin(args, *plan, everything)
 
     def _begin(self, args: Any, target: Any, argv: list[str], given: dict[str, Any]) -> None:
         if given.get("stdin") not in (None, subprocess.DEVNULL):
-            raise NotImplementedError("stdin= is not available here: a program's child has no input")
+            raise NotImplementedError("stdin= and input= are not available here: a program's child has no input")
         if (folder := given.get("cwd")) is not None and os.path.realpath(folder) != os.getcwd():
             raise NotImplementedError(
                 "cwd= is not available here: a program's child works in the same folder as all programs"
@@ -51,14 +52,12 @@ class WorldPopen(_Real):
         text = any(given.get(name) for name in ("text", "universal_newlines", "encoding", "errors"))
         self.args, self.returncode, self.stdin = args, None, None
         self._child_created, self._sigint_wait_secs = False, 0.0  # what the real one's __del__ and __exit__ ask for
-        self._news = _Condition()
         parent = hooks.current_process()
         out, self.stdout = self._stream(given.get("stdout"), parent.stdout, text)
         both = given.get("stderr") == subprocess.STDOUT
         err, self.stderr = (out, None) if both else self._stream(given.get("stderr"), parent.stderr, text)
-        self._process: Process = hooks.current_world().spawn(
-            target, name=os.path.basename(argv[0]) or "program", argv=argv, stdout=out, stderr=err,
-            on_exit=lambda process: self._news.notify_all(), environ=given.get("env"),
+        self._process = hooks.current_world().spawn(
+            target, name=os.path.basename(argv[0]) or "program", argv=argv, stdout=out, stderr=err, environ=given.get("env")
         )  # fmt: skip
         self.pid = self._process.pid
         if not any(given.get(name) for name in _OWN_TERMINAL):
@@ -67,19 +66,19 @@ class WorldPopen(_Real):
     def _stream(self, wanted: Any, inherited: Any, text: bool) -> tuple[Any, Any]:
         """Where the child prints, and what its parent reads."""
         if wanted == subprocess.PIPE:
-            pipe = _Pipe(text, self._news, lambda: self._process.exit_code is not None)
+            pipe = _Pipe(text, lambda: self.poll() is not None)
             return pipe, pipe
         if wanted == subprocess.DEVNULL:
-            return _Writer(), None
+            return io.StringIO(), None
         if isinstance(wanted, int):
             raise NotImplementedError("a file descriptor cannot be used here: give the file itself, or PIPE")
         if "b" in getattr(wanted, "mode", ""):
-            return _Writer(wanted), None
+            return codecs.getwriter("utf-8")(wanted), None
         return inherited if wanted is None else wanted, None
 
     def poll(self) -> int | None:
         """The exit code, None while it runs."""
-        if not self._simulated:
+        if self._process is None:
             return super().poll()
         if self.returncode is None and self._process.exit_code is not None:
             self.returncode = -signal.SIGTERM if self._terminated else self._process.exit_code
@@ -87,24 +86,22 @@ class WorldPopen(_Real):
 
     def wait(self, timeout: float | None = None) -> int:
         """Wait for its end, at most `timeout` s of robot time."""
-        if not self._simulated:
+        if self._process is None:
             return super().wait(timeout)
-        if not self._news.wait_for(lambda: self.poll() is not None, timeout):
+        if not _wait_until(lambda: self.poll() is not None, timeout):
             raise subprocess.TimeoutExpired(self.args, timeout or 0.0)
         return self.returncode
 
     def communicate(self, input: Any = None, timeout: float | None = None) -> tuple[Any, Any]:
         """Wait for its end; what it printed to the pipes."""
-        if not self._simulated:
+        if self._process is None:
             return super().communicate(input, timeout)
-        if input:
-            raise NotImplementedError("input= is not available here: a program's child has no input")
         self.wait(timeout)
         return (self.stdout and self.stdout.read(), self.stderr and self.stderr.read())
 
     def send_signal(self, sig: int) -> None:
         """Send it a signal; without a handler of its own SIGTERM and SIGKILL end it."""
-        if not self._simulated:
+        if self._process is None:
             super().send_signal(sig)
         elif self.poll() is None:
             self._terminated = sig == signal.SIGTERM and not self._process.handles(sig)
@@ -122,72 +119,37 @@ _OWN_TERMINAL = ("start_new_session", "preexec_fn", "process_group")
 """With any of these a child is out of reach of its parent's Ctrl-C (preexec_fn is os.setsid, as a rule)."""
 
 
-class _Condition:
-    """A condition variable of robot time: a program's thread waits; for a cell the world is run meanwhile."""
-
-    def __init__(self) -> None:
-        self._waiting: list[Strand] = []
-
-    def notify_all(self) -> None:
-        """Have all that wait look again."""
-        for strand in self._waiting:
-            strand.simulation.wake(strand)
-
-    def wait_for(self, predicate: Callable[[], bool], seconds: float | None = None) -> bool:
-        """Wait until the predicate holds, at most some seconds of robot time; whether it does."""
-        strand, simulation = running_strand(), hooks.current_world().sim
-        deadline = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
-        if strand is not None:
-            self._waiting.append(strand)
-            if deadline is not None:
-                simulation.at(deadline, simulation.wake, strand)
-        try:
-            while not predicate():
-                if deadline is not None and simulation.now >= deadline:
-                    return False
-                if strand is None:
-                    simulation.run_until(simulation.now + _STEP)
-                else:
-                    simulation.park(strand)
-            return True
-        finally:
-            if strand is not None:
-                self._waiting.remove(strand)
-
-
-class _Writer(io.TextIOBase):
-    """Hands on what a child prints, as bytes, to a file; without one, to nobody."""
-
-    def __init__(self, file: Any = None) -> None:
-        self._file = file
-
-    def write(self, text: str) -> int:
-        if self._file is not None:
-            self._file.write(text.encode())
-            self._file.flush()
-        return len(text)
+def _wait_until(predicate: Callable[[], bool], seconds: float | None = None) -> bool:
+    """Let robot time pass until the predicate holds, at most so many seconds; whether it does."""
+    simulation = hooks.current_world().sim
+    go_on = simulation.run_until if running_strand() is None else simulation.sleep_until
+    deadline = NEVER if seconds is None else simulation.now + round(seconds * NANOSECONDS)
+    while not predicate():
+        if simulation.now >= deadline:
+            return False
+        go_on(min(simulation.now + _STEP, deadline))
+    return True
 
 
 class _Pipe(io.TextIOBase):
     """What a child prints, for its parent to read: lines as they come, and all when it has ended."""
 
-    def __init__(self, text: bool, news: _Condition, has_ended: Callable[[], bool]) -> None:
-        self._text, self._news, self._has_ended = text, news, has_ended
+    def __init__(self, text: bool, has_ended: Callable[[], bool]) -> None:
+        self._text, self._has_ended = text, has_ended
         self._pending = ""
 
     def write(self, text: str) -> int:
         self._pending += text
-        self._news.notify_all()
         return len(text)
 
     def read(self, size: int | None = -1) -> Any:
         """All, once the child has ended."""
-        self._news.wait_for(self._has_ended)
+        _wait_until(self._has_ended)
         return self._taken(len(self._pending))
 
     def readline(self, size: int = -1) -> Any:  # type: ignore[override]
         """The next line, as soon as there is one."""
-        self._news.wait_for(lambda: self._has_ended() or "\n" in self._pending)
+        _wait_until(lambda: "\n" in self._pending or self._has_ended())
         return self._taken((self._pending.find("\n") + 1) or len(self._pending))
 
     def _taken(self, count: int) -> str | bytes:

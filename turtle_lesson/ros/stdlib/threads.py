@@ -5,12 +5,11 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from collections import Counter, UserDict
+from collections import UserDict
 from collections.abc import Callable, MutableMapping
 from concurrent.futures import thread as pool
-from dataclasses import dataclass, field
 from traceback import format_exception_only
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from greenlet import GreenletExit
 
@@ -45,34 +44,25 @@ def start(real: Any, self: Any) -> None:
 
 def join(real: Any, self: Any, timeout: float | None = None) -> None:
     """`Thread.join`."""
-    handle = _handle_of(self)
-    if handle is None:
+    lock = _lock_of(self)
+    if lock is None:
         real(self, timeout)
     elif self is threading.current_thread():
         raise RuntimeError("cannot join current thread")
-    elif handle.lock.acquire(True, -1 if timeout is None else max(timeout, 0)):
-        handle.lock.release()
+    elif lock.acquire(True, -1 if timeout is None else max(timeout, 0)):
+        lock.release()
 
 
 def is_alive(real: Any, self: Any) -> bool:
     """`Thread.is_alive`."""
-    handle = _handle_of(self)
-    if handle is None:
+    lock = _lock_of(self)
+    if lock is None:
         return real(self)
-    return handle.lock.locked() and not looked_in_vain()
+    return lock.locked() and not looked_in_vain()
 
 
-def representation(real: Any, self: Any) -> str:
-    """`Thread.__repr__`."""
-    handle = _handle_of(self)
-    if handle is None:
-        return real(self)
-    state = "started" if handle.lock.locked() else "stopped"
-    return f"<{type(self).__name__}({self.name}, {state}{' daemon' if self.daemon else ''} {handle.ident})>"
-
-
-def _handle_of(thread: threading.Thread) -> Handle | None:
-    """What knows whether a simulated thread has ended; None for a real one, and for one that was not started."""
+def _lock_of(thread: threading.Thread) -> VirtualLock | None:
+    """The lock that a simulated thread holds until it ends; None for a real one, and for one that was not started."""
     return vars(thread).get("_virtual")
 
 
@@ -80,8 +70,6 @@ def _begin(thread: threading.Thread, process: Process) -> None:
     simulation, starter = process.simulation, running_strand()
     strand = process.add_strand(lambda: _run(thread, strand))
     become(thread, strand)
-    if is_worker(thread):
-        remember(process)
     strand.parked = True
     simulation.wake(strand)
     if starter is not None:
@@ -151,19 +139,8 @@ def start_new_thread(
 # -- which thread is this? ---------------------------------------------------------------------------------------------
 
 
-class Handle(NamedTuple):
-    """The number of a simulated thread, and a lock that it holds until it ends."""
-
-    ident: int
-    lock: VirtualLock
-
-
 class _MainThread(threading.Thread):
     """The main thread of a simulated process."""
-
-
-class _DummyThread(threading.Thread):
-    """A thread that nobody has started by `threading`, such as a worker of an executor."""
 
 
 def thread_of(strand: Strand) -> threading.Thread:
@@ -172,27 +149,25 @@ def thread_of(strand: Strand) -> threading.Thread:
         if strand is strand.process.main_strand:
             become(_MainThread(name="MainThread", daemon=False), strand)
         else:
-            become(_DummyThread(name=strand.name or "Dummy", daemon=True), strand)
+            become(threading.Thread(name=strand.name or "Dummy", daemon=True), strand)
     return strand.thread
 
 
 def become(thread: threading.Thread, strand: Strand) -> None:
     """Let a thread object stand for a strand, as if it had been started."""
-    process, state = strand.process, vars(thread)
-    handle = Handle(process.next_ident(), VirtualLock())
-    handle.lock.acquire(False)
-    handle.lock.owner, handle.lock.surely = strand, True
-    strand.thread, state["_strand"] = thread, strand
-    state["_ident"] = state["_native_id"] = handle.ident
-    state["_virtual"] = handle
+    process, state, lock = strand.process, vars(thread), VirtualLock()
+    lock.acquire(False)
+    lock.owner, lock.surely = strand, True
+    strand.thread, state["_strand"], state["_virtual"] = thread, strand, lock
+    state["_ident"] = state["_native_id"] = (process.pid << 16) + process.next_number("threads")
     state["_started"].set()
 
 
 def end(thread: threading.Thread) -> None:
     """The thread has ended: the threads that join it continue."""
-    handle: Handle = vars(thread)["_virtual"]
-    if handle.lock.locked():
-        handle.lock.release()
+    lock = _lock_of(thread)
+    if lock is not None and lock.locked():
+        lock.release()
 
 
 IDENTITY: dict[str, Callable[[Strand], Any]] = {
@@ -232,18 +207,10 @@ def _threads(process: Process, *, made: bool = False) -> list[threading.Thread]:
     return [thread for thread in threads if "_virtual" in vars(thread) and thread.is_alive()]
 
 
-class _NameCounts(Counter[str]):
-    """How many threads of a process have got a name of each kind."""
-
-
 def newname(real: Any, name_template: str) -> str:
     """A name for a thread; those of each simulated process are numbered by themselves."""
     process = process_here()
-    if process is None:
-        return real(name_template)
-    counts = process.state(_NameCounts)
-    counts[name_template] += 1
-    return name_template % counts[name_template]
+    return real(name_template) if process is None else name_template % process.next_number(name_template)
 
 
 # -- pools -------------------------------------------------------------------------------------------------------------
@@ -254,15 +221,6 @@ MOST_WORKERS = 8
 """How many threads a pool has on a computer with four cores, which a simulated one is."""
 
 
-@dataclass
-class _Pools:
-    """The pools of a process: how many were made, whether they end with it, and the queue of each worker."""
-
-    made: int = 0
-    end_with_it: bool = False
-    queues: dict[threading.Thread, Any] = field(default_factory=dict)
-
-
 def next_number(real: Any) -> int:
     """Numbers the pools, those of each simulated process by themselves."""
     process = process_here()
@@ -270,10 +228,8 @@ def next_number(real: Any) -> int:
 
 
 def number_of_pool(process: Process) -> int:
-    """The number of one more pool of a process."""
-    own = process.state(_Pools)
-    own.made += 1
-    return own.made - 1
+    """The number of one more pool of a process, from 0."""
+    return process.next_number("pools") - 1
 
 
 class NotInStrands:
@@ -298,30 +254,23 @@ def init(real: Any, self: Any, max_workers: int | None = None, *arguments: Any, 
     real(self, max_workers, *arguments, **keywords)
 
 
-def is_worker(thread: threading.Thread) -> bool:
-    """Whether a thread is one of a pool's."""
-    return getattr(thread, "_target", None) is pool._worker
+class _Pools:
+    """By worker of the pools of a process, the queue from which it gets its work."""
 
+    def __init__(self, process: Process) -> None:
+        self.queues: dict[threading.Thread, Any] = {}
+        process.before_exit.append(self._end)
 
-def remember(process: Process) -> None:
-    """A thread of a pool starts: before the process ends, its pools are to end."""
-    own = process.state(_Pools)
-    if not own.end_with_it:
-        own.end_with_it = True
-        process.before_exit.append(lambda: end_pools(process))
-
-
-def end_pools(process: Process) -> None:
-    """Have the pools of a process do what they have been given, and end their threads."""
-    queues = process.state(_Pools).queues
-    workers = [(thread, work) for thread, work in queues.items() if thread.is_alive()]
-    for thread, work in workers:
-        executor = thread._args[0]()  # type: ignore[attr-defined]  # a weak reference
-        if executor is not None:
-            executor._shutdown = True
-        work.put(None)
-    for thread, _ in workers:
-        thread.join()
+    def _end(self) -> None:
+        """Have all do what they have been given, and end."""
+        workers = [(thread, work) for thread, work in self.queues.items() if thread.is_alive()]
+        for thread, work in workers:
+            executor = thread._args[0]()  # type: ignore[attr-defined]  # a weak reference
+            if executor is not None:
+                executor._shutdown = True
+            work.put(None)
+        for thread, _ in workers:
+            thread.join()
 
 
 class Queues(UserDict[Any, Any]):
@@ -335,7 +284,7 @@ class Queues(UserDict[Any, Any]):
 
     def __setitem__(self, thread: Any, work: Any) -> None:
         strand = vars(thread).get("_strand")
-        own = self.data if strand is None else strand.process.state(_Pools).queues
+        own = self.data if strand is None else strand.process.state(_Pools, strand.process).queues
         own[thread] = work
 
 
@@ -351,20 +300,14 @@ def wind_down(process: Process) -> None:
     try:
         while process.before_exit:
             process.before_exit.pop()()
-        _wait_for_threads(process)
+        if process.main_strand is not None and any(strand.thread is not None for strand in process.strands):
+            end(thread_of(process.main_strand))
+            while waited_for := [thread for thread in _threads(process, made=True) if not thread.daemon]:
+                waited_for[0].join()
     except KeyboardInterrupt as error:  # somebody has no patience: then nobody is waited for
         print(f"Exception ignored in: <module 'threading'>\n{format_error(error)}", end="", file=sys.stderr)
     while process.exit_functions:
         _call(process.exit_functions.pop())
-
-
-def _wait_for_threads(process: Process) -> None:
-    if all(strand.thread is None for strand in process.strands):
-        return  # by far the most programs have none
-    if process.main_strand is not None:
-        end(thread_of(process.main_strand))
-    while waited_for := [thread for thread in _threads(process, made=True) if not thread.daemon]:
-        waited_for[0].join()
 
 
 def _call(function: Callable[[], object]) -> None:
