@@ -46,9 +46,7 @@ class Listener(threading.Thread):
     They get a `KeyCode`, or a `Key` for those with a name. Options such as `suppress` have no effect here.
     """
 
-    def __init__(
-        self, on_press: Callback | None = None, on_release: Callback | None = None, **options: object
-    ) -> None:
+    def __init__(self, on_press: Callback | None = None, on_release: Callback | None = None, **options: object) -> None:
         super().__init__(daemon=True)
         self._callbacks = {True: on_press, False: on_release}
         self._reader: KeyReader | None = None

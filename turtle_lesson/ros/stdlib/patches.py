@@ -9,7 +9,6 @@ Lock`) before, meanwhile or afterwards go on working.
 from __future__ import annotations
 
 import atexit
-import importlib
 import os
 import queue
 import random
@@ -17,6 +16,7 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable, Sequence
+from concurrent.futures import thread as pool
 from enum import IntEnum
 from functools import cache, partial
 from importlib.machinery import ModuleSpec, PathFinder
@@ -49,8 +49,6 @@ class Stage(IntEnum):
     """By `import turtle_lesson`, so that a program that begins with `from time import sleep` has ours."""
     WORLD = 2
     """By the first world."""
-    USE = 3
-    """When a simulated program imports the module."""
 
 
 class Patch(NamedTuple):
@@ -111,7 +109,7 @@ def _refused(owner: str, name: str, why_not: Callable[[str], Exception]) -> Patc
     return _in_process(owner, refuse, "what only a real operating system can do", name)
 
 
-def _method(owner: str, name: str, function: Callable[..., Any], why: str, stage: Stage = Stage.WORLD) -> Patch:
+def _method(owner: str, name: str, function: Callable[..., Any], why: str) -> Patch:
     """A row for a method of a class; the function gets the real method first, and then the object."""
 
     def ours(real: Any) -> Any:
@@ -120,7 +118,7 @@ def _method(owner: str, name: str, function: Callable[..., Any], why: str, stage
 
         return named(method, name, real)
 
-    return Patch(owner, name, ours, why, stage)
+    return Patch(owner, name, ours, why)
 
 
 def _now(owner: str, name: str) -> Callable[[Any], Any]:
@@ -196,7 +194,16 @@ TABLE: tuple[Patch, ...] = (
     *(_refused("os", name, subprocesses.no_process) for name in ("fork", "forkpty")),
     *(
         _refused("signal", name, process_state.no_signal)
-        for name in ("alarm", "pause", "setitimer", "sigwait", "sigwaitinfo", "sigtimedwait", "set_wakeup_fd", "pthread_kill")
+        for name in (
+            "alarm",
+            "pause",
+            "setitimer",
+            "sigwait",
+            "sigwaitinfo",
+            "sigtimedwait",
+            "set_wakeup_fd",
+            "pthread_kill",
+        )
     ),
     *(_function(owner, process_state.showing(), MODULES, name) for owner, name in process_state.LOOKS_INTO_SYS_MODULES),
     _method("ipykernel.iostream:OutStream", "flush", in_no_strand, "waits for a real thread, in which no time passes"),
@@ -205,11 +212,11 @@ TABLE: tuple[Patch, ...] = (
     _function("atexit", process_state.unregister, AT_EXIT),
     Patch("subprocess", "Popen", lambda real: subprocesses.WorldPopen, CHILD),
     _function("os", subprocesses.system, CHILD),
-    _method("multiprocessing.process:BaseProcess", "start", subprocesses.start_process, REFUSED, Stage.USE),
-    _method("tkinter:Tk", "__init__", subprocesses.first_window, "a program here has no screen", Stage.USE),
+    _method("multiprocessing.process:BaseProcess", "start", subprocesses.start_process, REFUSED),
+    _method("tkinter:Tk", "__init__", subprocesses.first_window, "a program here has no screen"),
 )
 
-LATE = frozenset({"numpy.random"})
+LATE = frozenset({"ipykernel.iostream", "multiprocessing.process", "numpy.random", "tkinter"})
 """Modules that a start does not import for their rows: these are put in when anybody imports the module."""
 
 
@@ -226,7 +233,9 @@ class LateFinder:
 
         def exec_module(module: ModuleType) -> None:
             execute(module)
-            _put_in_rows_of(name)
+            for patch in TABLE:
+                if patch.owner.partition(":")[0] == name:
+                    _put_in(patch)
 
         spec.loader.exec_module = exec_module  # type: ignore[method-assign]
         return spec
@@ -254,9 +263,9 @@ PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
     (threading.Thread(name="unused"), "_ident _native_id", "the number of a thread"),
     (os.environ, "_data", "variables of a process's own"),
     (ownership.module, "local", "the `threading.local` that is written in Python"),
-    (threads.pool, "_threads_queues", "ending a program's pools"),
-    (threads.pool, "_global_shutdown_lock", "starting work in a pool"),
-    (threads.pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),
+    (pool, "_threads_queues", "ending a program's pools"),
+    (pool, "_global_shutdown_lock", "starting work in a pool"),
+    (pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),
     (asyncio_loops.asyncio.BaseEventLoop, "_run_once", "a loop that waits in virtual time"),
 )
 """What is used of the standard library without being documented: owner, names and purpose.
@@ -342,9 +351,9 @@ def _take_out() -> None:
 
 
 def _put_in(patch: Patch) -> None:
-    """Put in one row, if this Python, on this system, has what it replaces, and Jupyter's part if Jupyter runs."""
+    """Put in one row, if this Python, on this system, has what it replaces, and a late module is imported."""
     owner_module = patch.owner.partition(":")[0]
-    if owner_module not in sys.modules and (owner_module in LATE or owner_module.startswith("ipykernel.")):
+    if owner_module in LATE and owner_module not in sys.modules:
         return
     owner, name = resolve_name(patch.owner), patch.name
     if not hasattr(owner, name):
@@ -377,8 +386,6 @@ def _put_in_place_of_modules() -> None:
         on_import[module.__name__] = partial(_itself, module)
     on_import.update({toolkit: partial(subprocesses.no_window, toolkit) for toolkit in subprocesses.WINDOWS})
     on_import.update(pynput=_pynput, curses=terminals.no_curses)
-    on_import["tkinter"] = partial(_put_in_late, "tkinter")
-    on_import["multiprocessing"] = on_import["concurrent"] = partial(_put_in_late, "multiprocessing.process")
 
 
 def _itself(module: ModuleType) -> ModuleType:
@@ -391,21 +398,3 @@ def _pynput() -> ModuleType:
     from .key_listener import make_pynput
 
     return make_pynput()
-
-
-def _put_in_late(module: str) -> None:
-    """Put in the rows of a module that a program imports now, which is imported for that."""
-    try:
-        importlib.import_module(module)
-    except ImportError:  # Python may be without tkinter
-        return
-    _put_in_rows_of(module)
-
-
-def _put_in_rows_of(module: str) -> None:
-    """Put in the rows of a module that was imported now, unless they are in."""
-    for patch in TABLE:
-        if patch.owner.partition(":")[0] == module:
-            owner = resolve_name(patch.owner)
-            if not any(each is owner and name == patch.name for each, name, _ in _replaced):
-                _put_in(patch)

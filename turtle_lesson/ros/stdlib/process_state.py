@@ -6,13 +6,13 @@ import os
 import signal as module
 import sys
 import zlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
 from ..sim.errors import is_library
 from ..sim.process import Process
-from ..sim.simulation import NANOSECONDS, be_careful
+from ..sim.simulation import be_careful
 from ..sim.strand import Strand, running_strand
 from .program import running_modules
 

@@ -7,7 +7,6 @@ import threading
 import time
 from collections import UserDict
 from collections.abc import Callable, MutableMapping
-from concurrent.futures import thread as pool
 from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
 
