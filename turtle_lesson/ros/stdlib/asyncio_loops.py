@@ -7,7 +7,6 @@ never waits lets time pass all the same. Each thread of a simulated process has 
 from __future__ import annotations
 
 import asyncio
-import inspect
 import signal
 import threading
 from collections.abc import Callable
@@ -17,57 +16,8 @@ from ..sim.errors import SimulationError
 from ..sim.process import Process
 from ..sim.simulation import CLOCK_READ, NANOSECONDS, be_careful
 from ..sim.strand import Strand, running_strand
-from .deadlock import LOOP, look_for_hope
+from .deadlock import LOOP, wait_in_vain
 from .locks import nanoseconds
-
-
-class Waiting:
-    """What the loop waits with, in the place of a selector: until a time has come, or somebody else calls something."""
-
-    def __init__(self, loop: VirtualEventLoop) -> None:
-        self._loop = loop
-        self._strand: Strand | None = None
-        self._woken = False
-
-    def select(self, timeout: float | None = None) -> list[Any]:
-        """Let time pass: at most `timeout` s; until woken if that is None."""
-        strand = running_strand()
-        if strand is None:
-            raise SimulationError("this loop belongs to a simulated process, and can only run in one")
-        if timeout is not None and timeout <= 0:
-            strand.simulation.sleep_until(strand.simulation.now + CLOCK_READ)
-        else:
-            self._wait(strand, None if timeout is None else strand.simulation.now + nanoseconds(timeout))
-        self._woken = False
-        self._loop.print_to(strand)
-        return []
-
-    def _wait(self, strand: Strand, deadline: int | None) -> None:
-        simulation = strand.simulation
-        if deadline is not None:
-            simulation.at(deadline, simulation.wake, strand)
-        self._strand = strand
-        try:
-            while not self._woken and (deadline is None or simulation.now < deadline):
-                if deadline is None:
-                    strand.waits_for = LOOP
-                    look_for_hope(strand)
-                simulation.park(strand)
-        finally:
-            strand.waits_for = self._strand = None
-
-    def wake(self) -> None:
-        """Let the loop look again at what there is to do."""
-        self._woken = True
-        if self._strand is not None:
-            self._strand.simulation.wake(self._strand)
-
-    def get_map(self) -> dict[Any, Any]:
-        """What it listens to: nothing."""
-        return {}
-
-    def close(self) -> None:
-        """Nothing is left to do."""
 
 
 class _Loops(dict[Strand, Any]):
@@ -75,13 +25,15 @@ class _Loops(dict[Strand, Any]):
 
 
 class VirtualEventLoop(asyncio.BaseEventLoop):
-    """What `asyncio.new_event_loop()` makes in a simulated process."""
+    """What `asyncio.new_event_loop()` makes in a simulated process. It is its own selector, which it waits with."""
 
     def __init__(self, process: Process) -> None:
         super().__init__()
         be_careful(process.simulation)
         self._process = process
-        self._selector = Waiting(self)
+        self._selector = self
+        self._waiting: Strand | None = None
+        self._woken = False
         self._clock_resolution = 1 / NANOSECONDS
         self._cell: Any = None
 
@@ -104,9 +56,45 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
         if not self.is_closed() and not self.is_running():
             self.close()
 
+    # -- waiting -------------------------------------------------------------------------------------------------------
+
+    def select(self, timeout: float | None = None) -> list[Any]:
+        """Let time pass, at most `timeout` s, until something else is called here; None: until then."""
+        strand = running_strand()
+        if strand is None:
+            raise SimulationError("this loop belongs to a simulated process, and can only run in one")
+        if timeout is not None and timeout <= 0:
+            strand.simulation.sleep_until(strand.simulation.now + CLOCK_READ)
+        else:
+            self._wait(strand, None if timeout is None else strand.simulation.now + nanoseconds(timeout))
+        self._woken = False
+        self._print_to(strand)
+        return []
+
+    def _wait(self, strand: Strand, deadline: int | None) -> None:
+        simulation = strand.simulation
+        if deadline is not None:
+            simulation.at(deadline, simulation.wake, strand)
+        self._waiting = strand
+        try:
+            while not self._woken and (deadline is None or simulation.now < deadline):
+                if deadline is None:
+                    wait_in_vain(strand, LOOP)
+                simulation.park(strand)
+        finally:
+            strand.waits_for = self._waiting = None
+
+    def _process_events(self, event_list: list[Any]) -> None:
+        """There are none."""
+
+    def _write_to_self(self) -> None:
+        self._woken = True
+        if self._waiting is not None:
+            self._waiting.simulation.wake(self._waiting)
+
     # -- whom it prints to ---------------------------------------------------------------------------------------------
 
-    def print_to(self, strand: Strand) -> None:
+    def _print_to(self, strand: Strand) -> None:
         """Have what was asked for while an earlier cell ran print to the one that runs now."""
         if strand.cell is not self._cell and strand.cell is not None:
             self._cell = strand.cell
@@ -122,16 +110,8 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
 
     # -- what a selector loop has beside it ----------------------------------------------------------------------------
 
-    def _process_events(self, event_list: list[Any]) -> None:
-        """There are none."""
-
-    def _write_to_self(self) -> None:
-        self._selector.wake()
-
     def add_signal_handler(self, sig: int, callback: Any, *args: Any) -> None:  # type: ignore[override]
         """Have a function called in the loop when this process gets a signal."""
-        if inspect.iscoroutinefunction(callback):
-            raise TypeError("coroutines cannot be used with add_signal_handler()")
         signal.signal(sig, lambda *_: self.call_soon_threadsafe(callback, *args))
 
     def remove_signal_handler(self, sig: int) -> bool:
@@ -139,24 +119,14 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
         default = signal.default_int_handler if sig == signal.SIGINT else signal.SIG_DFL
         return signal.signal(sig, default) not in (default, None)
 
-
-def _refused(name: str) -> Callable[..., Any]:
-    def refuse(self: VirtualEventLoop, *arguments: Any, **keywords: Any) -> Any:
+    def _refused(self, *arguments: Any, **keywords: Any) -> Any:
         raise NotImplementedError(
-            f"loop.{name}() is not possible here: files, sockets and processes of the real computer know "
-            "nothing about virtual time. Tasks, queues, events, sleep, run_in_executor and signals work."
+            "not possible here: files, sockets and processes of the real computer know nothing about virtual time. Of "
+            "asyncio tasks, queues, events, sleep, run_in_executor and signals work."
         )
 
-    refuse.__name__ = name
-    return refuse
-
-
-for _name in (
-    "add_reader", "add_writer", "connect_read_pipe", "connect_write_pipe", "create_connection", "create_datagram_endpoint",
-    "create_server", "create_unix_connection", "create_unix_server", "remove_reader", "remove_writer", "sock_accept",
-    "sock_connect", "sock_recv", "sock_sendall", "subprocess_exec", "subprocess_shell",
-):  # fmt: skip
-    setattr(VirtualEventLoop, _name, _refused(_name))
+    add_reader = add_writer = sock_connect = sock_recv = sock_sendall = subprocess_exec = subprocess_shell = _refused  # type: ignore[assignment]
+    create_connection = create_datagram_endpoint = create_server = create_unix_connection = _refused
 
 
 # -- loop functions ----------------------------------------------------------------------------------------------------

@@ -9,7 +9,6 @@ spins an executor or computes might do anything, so as long as there is one, not
 from __future__ import annotations
 
 import ast
-import re
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -26,15 +25,17 @@ from .ownership import notebook_here
 if TYPE_CHECKING:
     from ..sim.process import Process
     from ..sim.simulation import Simulation
+    from .locks import VirtualLock
 
 
-def look_for_hope(strand: Strand) -> None:
-    """Called by a strand that is about to wait without a time limit, its `waits_for` set.
+def wait_in_vain(strand: Strand, what: VirtualLock | str) -> None:
+    """Note that a strand waits without a time limit for a lock, or for what only another strand of its process can bring.
 
-    Raises NeverWakes if that can never end; if the fault is another strand's, it is raised there.
+    Raises NeverWakes if that can never be; if the fault is another strand's, it is raised there. `waits_for` is to be None
+    again when the wait is over.
     """
-    lock = strand.waits_for
-    if strand is strand.simulation.driven and getattr(lock, "surely", False) and lock.owner is None:
+    strand.waits_for = what
+    if strand is strand.simulation.driven and not isinstance(what, str) and what.surely and what.owner is None:
         # a cell waits for a lock that it has taken itself, by `with`, before it let the simulation run
         raise NeverWakes(why_in_a_circle(strand, [strand], strand))
     chain = list(_waited_for(strand))
@@ -44,15 +45,6 @@ def look_for_hope(strand: Strand) -> None:
         raise NeverWakes(why_in_a_circle(strand, chain, owner))
     if _nobody_can_act(strand.process, strand):
         _tell(last if last.waits_for is not IDLE else strand, strand)
-
-
-def wait_in_vain(strand: Strand, what: str) -> None:
-    """Note that a strand waits without a time limit for what only another strand of its process can bring.
-
-    Raises NeverWakes if that can never be. `waits_for` is to be None again when the wait is over.
-    """
-    strand.waits_for = what
-    look_for_hope(strand)
 
 
 def look_after(ended: Strand) -> None:
@@ -141,9 +133,8 @@ _WHAT_ENDS_IT = {
 }
 
 _PUBLIC = {
-    "VirtualSimpleQueue.get": "SimpleQueue.get",
+    "_PySimpleQueue.get": "SimpleQueue.get",
     "_RLock.acquire": LOCK,
-    "_wait_for_notice": "Condition.wait",
     "join": "Thread.join",
 }
 """By what a frame's code is called: the documented function that it stands for."""
@@ -170,27 +161,22 @@ def why_in_a_circle(strand: Strand, chain: Sequence[Strand], owner: Strand) -> s
     """Why a strand would wait forever: because the strands that wait for one another form a circle, or one has ended."""
     never = _never(wait_of(strand))
     if owner.dead:
-        return f"{never}: {name_of(owner)} has ended without releasing it."
+        return f"{never}: {_name(owner)} has ended without releasing it."
     if owner is strand and len(chain) == 1:
         return (
             f"{never}: this same thread has already taken it. Release it first, or use threading.RLock(), which the "
             "same thread may take again."
         )
-    if owner is not strand:
-        return f"{never}: {_circle(chain[chain.index(owner) :])}."
-    return f"{never}: {_circle(chain)}. If all threads take locks in the same order, that cannot happen."
+    circle = chain[chain.index(owner) :]
+    following = [*circle[1:], owner]
+    waits = [f"{_name(each)} waits for what {_name(other)} has" for each, other in zip(circle, following, strict=True)]
+    return f"{never}: {', and '.join(waits)}. If all threads take locks in the same order, that cannot happen."
 
 
 def _never(what: str) -> str:
     if what in _WHAT_ENDS_IT:
         return f"{what}() would never return"
     return f"waiting for {what} would never end"
-
-
-def _circle(chain: Sequence[Strand]) -> str:
-    following = [*chain[1:], chain[0]]
-    pairs = zip(chain, following, strict=True)
-    return ", and ".join(f"{name_of(each)} waits for what {name_of(other)} has" for each, other in pairs)
 
 
 def wait_of(strand: Strand) -> str:
@@ -221,13 +207,12 @@ def _called_in(frame: FrameType | None) -> str:
 
 def _others(strand: Strand) -> str:
     others = [each for each in strand.process.strands if each is not strand and not each.dead]
-    waits = [(name_of(each), wait_of(each)) for each in others if each.waits_for not in (None, "", IDLE)]
+    waits = [(_name(each), wait_of(each)) for each in others if each.waits_for not in (None, "", IDLE)]
     waiting = [f"{name} waits {f'in {what}()' if what in _WHAT_ENDS_IT else f'for {what}'}" for name, what in waits]
     return f"Its other threads are waiting as well: {', '.join(waiting)}." if waiting else "It has no other thread."
 
 
-def name_of(strand: Strand) -> str:
-    """The name of a thread."""
+def _name(strand: Strand) -> str:
     return str(hooks.thread_of(strand).name)
 
 
@@ -279,34 +264,19 @@ NAME = "__another_look__"
 """What the loops call; the builtins of a program have it."""
 ROUND = 100_000
 """How long a round takes, in ns."""
-_WHILE = re.compile(rb"(?:^|[\r\n]|\xef\xbb\xbf)[ \t\f]*while\b")
-"""A line that may begin with a `while`, as such a statement must: to parse a program takes longer than to compile it."""
 _NOTHING = (ast.Pass, ast.Continue, ast.Break, ast.Return)
 
 
 def without_busy_loops(source: bytes | str, path: str) -> Any:
     """What to compile instead of a text: itself, or its tree with such loops changed."""
-    if not _WHILE.search(source if isinstance(source, bytes) else source.encode(errors="replace")):
-        return source
+    if b"while" not in (source.encode(errors="replace") if isinstance(source, str) else source):
+        return source  # to parse a program takes longer than to compile it
     tree = ast.parse(source, path)
-    busy = [node for node in _statements(tree) if isinstance(node, ast.While) and _only_looks(node.body)]
-    if not busy:
-        return source
+    busy = [node for node in ast.walk(tree) if isinstance(node, ast.While) and _only_looks(node.body)]
     for loop in busy:
-        look = ast.Expr(ast.Call(ast.Name(NAME, ast.Load()), [], []))
-        for node in ast.walk(look):  # it stands where the first statement does, so that tracebacks tell the same lines
-            ast.copy_location(node, loop.body[0])
-        loop.body.insert(0, look)
-    return tree
-
-
-def _statements(tree: ast.Module) -> list[ast.AST]:
-    """All statements, without the expressions in them: those are most of a tree."""
-    found: list[ast.AST] = [tree]
-    for node in found:
-        for part in ("body", "orelse", "finalbody", "handlers", "cases"):
-            found += getattr(node, part, ())
-    return found
+        line = loop.body[0].lineno  # of the first statement, so that tracebacks tell the same lines
+        loop.body[:0] = ast.parse("\n" * (line - 1) + f"{NAME}()").body
+    return tree if busy else source
 
 
 def _only_looks(body: list[ast.stmt]) -> bool:

@@ -18,8 +18,8 @@ from ..sim.errors import WorldClosed
 from ..sim.run_blocking import drive
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import Strand, running_strand
-from .deadlock import count_look, look_for_hope
-from .ownership import is_for_everybody, notebook_here, process_here
+from .deadlock import count_look, wait_in_vain
+from .ownership import notebook_here, process_here
 
 RealLock = type(allocate_lock())
 
@@ -37,15 +37,15 @@ class VirtualLock:
         surely: whether nobody but the owner will release it: it was taken by `with`, or it is part of an RLock.
     """
 
-    __slots__ = ("__weakref__", "_lock", "_waiters", "owner", "surely")
+    __slots__ = ("__weakref__", "_lock", "_owned", "_waiters", "owner", "surely")
     __module__ = "_thread"
     __qualname__ = __name__ = "lock"
 
-    def __init__(self) -> None:
+    def __init__(self, *, owned: bool = False) -> None:
         self._lock = allocate_lock()
         self._waiters: deque[Strand] = deque()
         self.owner: Strand | None = None
-        self.surely = False
+        self.surely = self._owned = owned
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
         """Take the lock, waiting for it if `blocking`, at most `timeout` seconds; whether it was taken."""
@@ -68,7 +68,7 @@ class VirtualLock:
     def release(self) -> None:
         """Let it go. RuntimeError if nobody has it."""
         self.owner = None
-        self.surely = False
+        self.surely = self._owned
         self._lock.release()
         self._wake_one()
 
@@ -88,8 +88,6 @@ class VirtualLock:
         state = "locked" if self.locked() else "unlocked"
         return f"<{state} _thread.lock object at {id(self):#x}>"
 
-    acquire_lock, release_lock, locked_lock = acquire, release, locked
-
     def _wake_one(self) -> None:
         if self._waiters:
             strand = self._waiters[0]
@@ -101,12 +99,10 @@ class VirtualLock:
         if deadline is not None:
             simulation.at(deadline, simulation.wake, strand)
         self._waiters.append(strand)
-        if deadline is None:
-            strand.waits_for = self
         try:
             while not self._lock.acquire(False):
                 if deadline is None:
-                    look_for_hope(strand)
+                    wait_in_vain(strand, self)
                 elif simulation.now >= deadline:
                     return False
                 simulation.park(strand)
@@ -146,44 +142,16 @@ class VirtualRLock(_PythonRLock):
 
     def __init__(self) -> None:
         super().__init__()
-        self._block = _OwnedLock()
+        self._block = VirtualLock(owned=True)
 
 
-class _OwnedLock(VirtualLock):
-    """The lock inside of an RLock, which nobody but its owner can release."""
-
-    __slots__ = ()
-
-    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """As `VirtualLock.acquire`."""
-        taken = super().acquire(blocking, timeout)
-        if taken:
-            self.surely = True
-        return taken
-
-
-def condition_wait(real: Any, self: Any, timeout: float | None = None) -> bool:
-    """`threading.Condition.wait`, with a waiter that is a virtual lock where one is needed."""
-    virtual = isinstance(self._lock, (VirtualLock, VirtualRLock))
-    if virtual or (running_strand() is not None and not is_for_everybody(sys._getframe(1))):
-        return _wait_for_notice(self, timeout)
-    return real(self, timeout)
-
-
-def _wait_for_notice(condition: Any, timeout: float | None) -> bool:
-    if not condition._is_owned():
-        raise RuntimeError("cannot wait on un-acquired lock")
-    waiter = VirtualLock()
-    waiter.acquire()
-    condition._waiters.append(waiter)
-    state, notified = condition._release_save(), False
-    try:
-        notified = waiter.acquire() if timeout is None else waiter.acquire(timeout > 0, timeout if timeout > 0 else -1)
-        return notified
-    finally:
-        condition._acquire_restore(state)
-        if not notified and waiter in condition._waiters:
-            condition._waiters.remove(waiter)
+def waiter(real: Any) -> Any:
+    """`threading._allocate_lock`, which makes the lock by which a `Condition` waits: a virtual one where one is needed."""
+    condition = sys._getframe(1).f_locals.get("self")
+    virtual = isinstance(getattr(condition, "_lock", None), (VirtualLock, VirtualRLock))
+    if virtual or (running_strand() is not None and process_here() is not None):
+        return VirtualLock()
+    return real()
 
 
 def rlock(real: Any, *arguments: Any, **keywords: Any) -> Any:
@@ -211,40 +179,5 @@ def is_virtual(waited_for: Any) -> bool:
     return False
 
 
-class VirtualSimpleQueue:
-    """What `queue.SimpleQueue()` is in a simulated process."""
-
-    __module__ = "queue"
-
-    def __init__(self) -> None:
-        self._items: deque[Any] = deque()
-        self._count = threading.Semaphore(0)
-
-    def put(self, item: Any, block: bool = True, timeout: float | None = None) -> None:
-        """Add an item; there is always room."""
-        self._items.append(item)
-        self._count.release()
-
-    def get(self, block: bool = True, timeout: float | None = None) -> Any:
-        """Take the oldest item, waiting for one if `block`, at most `timeout` s. queue.Empty if there is none."""
-        if timeout is not None and timeout < 0:
-            raise ValueError("'timeout' must be a non-negative number")
-        if not self._count.acquire(block, timeout):
-            raise queue.Empty
-        return self._items.popleft()
-
-    def put_nowait(self, item: Any) -> None:
-        """As `put`."""
-        self.put(item)
-
-    def get_nowait(self) -> Any:
-        """As `get(False)`."""
-        return self.get(False)
-
-    def empty(self) -> bool:
-        """Whether there is no item."""
-        return not self._items
-
-    def qsize(self) -> int:
-        """How many items there are."""
-        return len(self._items)
+VirtualSimpleQueue: Any = getattr(queue, "_PySimpleQueue", None)
+"""`queue.SimpleQueue` in a simulated process: Python keeps it for systems that have none in C, and it waits for a semaphore."""
