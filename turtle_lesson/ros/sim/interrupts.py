@@ -51,7 +51,7 @@ interrupt_patience = 1.0
 
 
 class Guard:
-    """Watches one run of a simulation: `with Guard(simulation): …`, then `raise_if_interrupted()`.
+    """Watches one run of a simulation, `with Guard(simulation): …`, and raises an interrupt at its end.
 
     Attributes:
         interrupted: whether the user has interrupted the run.
@@ -87,10 +87,7 @@ class Guard:
             watchdog.watch(self._outer)
             if self._previous is not None:
                 _set_handler(signal.SIGINT, self._previous)
-
-    def raise_if_interrupted(self) -> None:
-        """Raise KeyboardInterrupt in the cell if the user asked for it while the simulation ran."""
-        if self.interrupted:
+        if self.interrupted and not isinstance(error, KeyboardInterrupt):
             raise KeyboardInterrupt
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
@@ -238,9 +235,8 @@ class Watchdog:
     def _look_at(self, guard: Guard) -> None:
         state, now, work = (guard.simulation.now, guard.interrupted), _monotonic(), work_done()
         stepped = guard.simulation.stepped
-        excused = (
-            stepped is not None and stepped.computes and not guard.interrupted
-        )  # it may compute for as long as a cell
+        # what is run step by step may compute for as long as a cell
+        excused = stepped is not None and stepped.computes and not guard.interrupted
         if state != guard.seen or excused or _is_excused(sys._current_frames().get(_main_thread.ident or 0)):
             guard.seen, guard.since, guard.computed = state, now, work
         waited, computed = now - guard.since, work - guard.computed

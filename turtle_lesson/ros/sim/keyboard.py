@@ -112,7 +112,11 @@ class Keyboard:
             EOFError: if no line was typed ahead and the cell cannot be asked.
             KeyboardInterrupt: if the user stops the cell while it asks.
         """
-        self._let_time_for_typing_pass(process)
+        simulation = self._simulation
+        if self._last is not None:
+            asker, now, events = self._last
+            if asker is process and simulation.now - now < MOMENT and simulation.events != events:
+                simulation.sleep_until(simulation.now + TYPING)
         self._askers = [asker for asker in self._askers if asker.alive and asker is not process]
         if self._askers:
             prompt = f"[{process.name}] {prompt}"
@@ -124,15 +128,8 @@ class Keyboard:
             print(f"{prompt}{line}", file=process.stdout or sys.stdout)
         else:
             line = self._answer_of_the_cell(prompt)
-        self._last = (process, self._simulation.now, self._simulation.events)
+        self._last = (process, simulation.now, simulation.events)
         return line
-
-    def _let_time_for_typing_pass(self, process: Process) -> None:
-        simulation = self._simulation
-        if self._last is not None:
-            asker, now, events = self._last
-            if asker is process and simulation.now - now < MOMENT and simulation.events != events:
-                simulation.sleep_until(simulation.now + TYPING)
 
     def _wait_for_a_cell(self, process: Process, prompt: str) -> None:
         """In live mode and between two cells Jupyter shows no prompt: go on in the next cell that lets time pass."""
@@ -189,25 +186,21 @@ class KeyReader:
         simulation.keyboard.reads_keys(self)
         if self.events:
             return True
-        self._say_where_keys_come_from()
-        strand, begun = running_strand(), simulation.now
+        if not self._said and not simulation.keyboard.has_keys:
+            print(NO_KEYS.format(name=self.process.name), file=self.process.stderr or sys.stderr)
+        self._said = True
+        strand = running_strand()
         assert strand is not None
-        if seconds is not None:
-            simulation.at(begun + max(POLL, round(seconds * 1e9)), simulation.wake, strand)
+        deadline = None if seconds is None else simulation.now + max(POLL, round(seconds * 1e9))
+        if deadline is not None:
+            simulation.at(deadline, simulation.wake, strand)
         self._waiting.append(strand)
         try:
-            while not self.events and not self.closed:
-                if seconds is not None and simulation.now >= begun + max(POLL, round(seconds * 1e9)):
-                    break
+            while not self.events and not self.closed and (deadline is None or simulation.now < deadline):
                 simulation.park(strand)
         finally:
             self._waiting.remove(strand)
         return bool(self.events)
-
-    def _say_where_keys_come_from(self) -> None:
-        if not self._said and not self.process.simulation.keyboard.has_keys:
-            print(NO_KEYS.format(name=self.process.name), file=self.process.stderr or sys.stderr)
-        self._said = True
 
 
 def _is_between_cells() -> bool:
@@ -229,23 +222,10 @@ SENT = {
 }  # fmt: skip
 """What a terminal sends for the keys that have a name (of xterm); for all others the character itself."""
 
-_OF_CHARACTERS = {
-    " ": "space",
-    "\n": "enter",
-    "\r": "enter",
-    "\t": "tab",
-    "\x1b": "esc",
-    "\x7f": "backspace",
-    "\x03": "ctrl+c",
-}
+_OF_CHARACTERS = {"\r": "enter", **{text: name for name, text in SENT.items() if len(text) == 1}}
 _OF_BROWSERS = {
-    "escape": "esc",
-    "control": "ctrl",
-    "pageup": "page_up",
-    "pagedown": "page_down",
-    "meta": "cmd",
-    "capslock": "caps_lock",
-}
+    "escape": "esc", "control": "ctrl", "pageup": "page_up", "pagedown": "page_down", "meta": "cmd", "capslock": "caps_lock",
+}  # fmt: skip
 
 
 def key_named(key: object) -> str:
@@ -254,8 +234,7 @@ def key_named(key: object) -> str:
     Raises:
         ValueError: if there is no such key.
     """
-    if not isinstance(key, str):
-        raise ValueError(f'a key is one character or a name such as "up", got {key!r}')
+    key = str(key)
     if len(key) == 1:
         return _OF_CHARACTERS.get(key, key)
     name = key.removeprefix("Arrow").lower()

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from .. import hooks
 from .errors import DriveTimeout, NeverWakes, SimulationError
 from .interrupts import Guard
+from .simulation import NANOSECONDS, NEVER, Simulation
 
 if TYPE_CHECKING:
     from .process import Process
-    from .simulation import Simulation
     from .strand import Strand
 
 
-DRIVE_LIMIT = 900 * 1_000_000_000
+DRIVE_LIMIT = 900 * NANOSECONDS
 """How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
 
 _current_thread = threading.current_thread  # the real one, whatever it becomes
@@ -80,29 +80,23 @@ def drive_within(
         simulation.driven = None
         if not call.done:
             call.give_up(KeyboardInterrupt() if guard.interrupted else why_not_done(simulation, call.strand, limit))
-    if guard.interrupted and not isinstance(call.error, KeyboardInterrupt):
-        raise KeyboardInterrupt
-    if call.error is not None:
-        raise call.error
+        if call.error is not None:
+            raise call.error
     return call.value
-
-
-def waiting_for(strand: Strand) -> str:
-    """What a strand waits for that nobody has named."""
-    what = hooks.name_of_wait(strand)
-    return "this call" if what == LOCK and strand.waits_for is None else what
 
 
 def why_not_done(simulation: Simulation, strand: Strand, limit: int) -> SimulationError:
     """The error for a call that did not end: nothing is left that could end it, or it took longer than the limit (ns)."""
-    what = strand.activity or waiting_for(strand)
-    if not simulation.busy:
+    what = strand.activity or hooks.name_of_wait(strand)
+    if what == LOCK and strand.waits_for is None:
+        what = "this call"
+    if simulation.next_event == NEVER:
         return NeverWakes(
             f"{what} waits for something that can never happen: nothing in this world is running any more. "
             "Start what should answer (ros2 run, lesson.launch), or give a timeout."
         )
     return DriveTimeout(
-        f"{what} was still not done after {limit // 1_000_000_000} s of robot time, so it was given up. "
+        f"{what} was still not done after {limit // NANOSECONDS} s of robot time, so it was given up. "
         "Does a node publish what it waits for, or offer the service, under exactly that name (`ros2 topic list`, "
         "`ros2 service list`)? A timeout_sec lets you decide how long to wait."
     )

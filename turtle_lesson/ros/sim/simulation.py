@@ -14,6 +14,7 @@ import weakref
 from _thread import get_ident
 from collections import deque
 from collections.abc import Callable
+from contextlib import nullcontext, suppress
 from contextvars import copy_context
 from heapq import heappop, heappush
 from types import FrameType
@@ -24,7 +25,7 @@ from greenlet import GreenletExit
 from .errors import OutOfTime, SimulationError, WorldClosed
 from .interrupts import Guard
 from .keyboard import Keyboard
-from .strand import Carrier, Cell, Face, LoopAside, Strand, running_greenlet, running_strand
+from .strand import PATIENCE, Carrier, Cell, Face, LoopAside, Strand, running_greenlet, running_strand, undead
 
 if TYPE_CHECKING:
     from .stepped_call import SteppedCall
@@ -38,13 +39,6 @@ CLOCK_READ = 1_000
 
 NEVER = 2**63
 """A virtual time (ns) that is not reached."""
-
-PATIENCE = 3
-"""How often a strand that does not want to end is told to, when its world closes."""
-
-_undead: list[Strand | Carrier] = []
-"""Strands that did not end then. They are kept: one that Python collects would be unwound in the middle of any other code,
-and would take the notebook's event loop for its own."""
 
 
 class Simulation(Face):
@@ -60,11 +54,13 @@ class Simulation(Face):
         self._ready: deque[Strand] = deque()
         self.make_ready = self._ready.append
         """Queue a strand that is parked no longer; `wake` does it with all care."""
-        self._count = 0
+        self.events = 0
+        """How many were ever asked for."""
         self.looks = 0
         self.looked_at = 0
         self._limit = 0
-        self._halted = False
+        self.halted = False
+        """Whether the last run was ended before its time, by `halt`."""
         self._raising = False
         self.end = NEVER
         """The virtual time (ns) that no run may pass: it ends there with OutOfTime."""
@@ -78,7 +74,7 @@ class Simulation(Face):
         """A function that runs the simulation and is itself run step by step."""
         self._cell = Cell(copy_context())
         self._for_the_hub: deque[tuple[Callable[..., object], tuple[Any, ...]]] = deque()
-        self._strands: weakref.WeakSet[Strand] = weakref.WeakSet()
+        self.strands: weakref.WeakSet[Strand] = weakref.WeakSet()
         self._forgotten: list[Strand] = []
         self._carriers: list[Carrier] = []
         self._idle_carriers: list[Carrier] = []
@@ -91,7 +87,7 @@ class Simulation(Face):
 
         It must be short and may only wake strands; what does more is given to `call_later`.
         """
-        self._count = count = self._count + 1
+        self.events = count = self.events + 1
         heappush(self._heap, (time, count, action, argument))
 
     def call_later(self, delay: int, action: Callable[..., object], *arguments: Any) -> None:
@@ -105,10 +101,6 @@ class Simulation(Face):
         if strand.parked:
             strand.parked = False
             self._ready.append(strand)
-
-    def know(self, strand: Strand) -> None:
-        """Remember a new strand."""
-        self._strands.add(strand)
 
     def put_back(self, strand: Strand) -> None:
         """Have a strand that was stopped in its middle go on first, in the next run."""
@@ -162,61 +154,52 @@ class Simulation(Face):
         """
         if time < self.now:
             raise SimulationError(f"cannot run back in time: it is {self.now} ns, asked for {time} ns")
-        with Guard(self) as guard:
+        with Guard(self):
             self.check_it_can_run()
             self.run_guarded(time, time_passes=True)
-        guard.raise_if_interrupted()
 
     def settle(self) -> None:
         """Let everything happen that is due at this instant, without letting time pass."""
-        with Guard(self) as guard:
+        with Guard(self):
             self.check_it_can_run()
             self.run_guarded(self.now + 1)
-        guard.raise_if_interrupted()
 
     def raise_in(self, strand: Strand, error: BaseException) -> None:
         """Raise `error` where a strand waits, at once, and let it clean up until it waits again or ends."""
         if not strand.dead:
-            self._visit(strand, lambda: strand.raise_inside(error))
+            self._visit(strand, lambda: strand.own_body().throw(error))
 
     def call_in(self, strand: Strand, function: Callable[[], object]) -> None:
         """Call a function within a strand, where it waits, at once. The strand must have been made careful before."""
         if not strand.dead:
             strand.calls = [*strand.calls, function]
-            self._visit(strand, strand.go_on)
+            self._visit(strand, lambda: strand.own_body().switch())
 
     def _visit(self, strand: Strand, go: Callable[[], object]) -> None:
         """Switch to a strand out of its turn, until it waits again or ends. No time passes.
 
         An interrupt meanwhile, which would leave this half done, is raised at the end.
         """
-        if self.running:
-            self._visit_guarded(strand, go)
-            return
-        with Guard(self) as guard:
-            self._visit_guarded(strand, go)
-        guard.raise_if_interrupted()
-
-    def _visit_guarded(self, strand: Strand, go: Callable[[], object]) -> None:
-        hub, face, halted, limit, raising = self.hub, self._face, self._halted, self._limit, self._raising
-        self.hub = running_greenlet()
-        self.halt()
-        self._raising = True
-        self._enter(strand.process)
-        try:
-            if running_strand() is None:
-                self._cell = self._cell.now()
-            if strand.cell is not self._cell:
-                self._cell.show_to(strand)
-            with LoopAside():
-                go()
-        finally:
-            self.hub, self._halted, self._limit, self._raising = hub, halted, limit, raising
-            if strand.dead and strand in self._ready:
-                self._ready.remove(strand)
-            self._leave()
-            if face is not None:
-                self._enter(face)
+        with nullcontext() if self.running else Guard(self):
+            hub, face, halted, limit, raising = self.hub, self._face, self.halted, self._limit, self._raising
+            self.hub = running_greenlet()
+            self.halt()
+            self._raising = True
+            self._enter(strand.process)
+            try:
+                if running_strand() is None:
+                    self._cell = self._cell.now()
+                if strand.cell is not self._cell:
+                    self._cell.show_to(strand)
+                with LoopAside():
+                    go()
+            finally:
+                self.hub, self.halted, self._limit, self._raising = hub, halted, limit, raising
+                if strand.dead and strand in self._ready:
+                    self._ready.remove(strand)
+                self._leave()
+                if face is not None:
+                    self._enter(face)
 
     def check_it_can_run(self) -> None:
         """Raise WorldClosed or SimulationError where a run is not possible."""
@@ -242,9 +225,14 @@ class Simulation(Face):
 
     def run_events(self, limit: int, time_passes: bool) -> None:
         """What `run_guarded` does where nothing is run step by step."""
-        self._take_hub()
+        hub = running_greenlet()
+        if hub is not self.hub:  # strands and carriers end where their parent goes on: there, too
+            self.hub = hub
+            for each in self._greenlets():
+                if not each.dead:
+                    each.parent = hub
         self._limit = min(limit, self.end)
-        self._halted = False
+        self.halted = False
         self.running = True
         with LoopAside():  # a simulated process is no part of Jupyter's event loop
             try:
@@ -253,9 +241,9 @@ class Simulation(Face):
                 self.running = False
                 self._limit = 0
                 self._leave()
-        if not self._halted and (time_passes or self._heap):
+        if not self.halted and (time_passes or self._heap):
             self.check_end(limit)
-        if time_passes and not self._halted:
+        if time_passes and not self.halted:
             self.now = limit
 
     def check_end(self, time: int) -> None:
@@ -269,23 +257,9 @@ class Simulation(Face):
         return sorted(self._heap, key=lambda event: event[:2])
 
     @property
-    def events(self) -> int:
-        """How many events were ever asked for."""
-        return self._count
-
-    @property
-    def busy(self) -> bool:
-        """Whether anything is going to happen at all."""
-        return bool(self._heap)
-
-    def has_events_before(self, time: int) -> bool:
-        """Whether anything is going to happen before `time` (ns), as far as is known now."""
-        return bool(self._heap) and self._heap[0][0] < time
-
-    @property
-    def halted(self) -> bool:
-        """Whether the last run was ended before its time, by `halt`."""
-        return self._halted
+    def next_event(self) -> int:
+        """When the next event happens (virtual time, ns), as far as is known now; NEVER if there is none."""
+        return self._heap[0][0] if self._heap else NEVER
 
     def show_cell_to(self, line: Any) -> None:
         """Have a greenlet that is about to go on print to the cell that runs now."""
@@ -299,17 +273,6 @@ class Simulation(Face):
         if self.driven is strand:
             self.halt()
 
-    def _take_hub(self) -> None:
-        """The greenlet that runs now becomes the hub. Strands end where their parent goes on: there, too."""
-        hub = running_greenlet()
-        if hub is not self.hub:
-            self.hub = hub
-            for strand in self._strands:
-                if not strand.dead:
-                    strand.parent = hub
-            for carrier in self._carriers:
-                carrier.parent = hub
-
     def _loop(self) -> None:
         """What the hub does: let strands go on until nothing is left to do, or the run is halted."""
         self._cell = self._cell.now()
@@ -317,7 +280,10 @@ class Simulation(Face):
             strand = self._next_strand()
             if strand is not None:
                 if strand.body is None and not self._idle_carriers:
-                    self._add_carrier()
+                    carrier = Carrier(self._carry)
+                    carrier.parent = self.hub
+                    self._carriers.append(carrier)
+                    self._idle_carriers.append(carrier)
                 self._go_on_with(strand)
             elif self._for_the_hub:
                 self._leave()
@@ -329,7 +295,7 @@ class Simulation(Face):
     def _next_strand(self) -> Strand | None:
         """Let time pass until a strand is due, and return it; None if the hub has to decide what happens now."""
         heap, ready = self._heap, self._ready
-        while not self._halted:
+        while not self.halted:
             if ready:
                 return ready.popleft()
             if self._for_the_hub or not heap or heap[0][0] >= self._limit:
@@ -390,26 +356,21 @@ class Simulation(Face):
             strand.turn, strand.context, strand.body = turn, strand.gr_context, None
             self.park(strand)
             if strand.turn is None:  # a carrier has taken the last one
-                if strand.failure is not None:
-                    raise strand.taken_failure()
+                failure, strand.failure = strand.failure, None
+                if failure is not None:
+                    raise failure
                 return
 
     def _may_hand_turns_over(self, strand: Strand) -> bool:
         """Not if the stack is a carrier's, which has calls of its own that wait for this strand."""
         return strand is running_greenlet()
 
-    def _add_carrier(self) -> None:
-        carrier = Carrier(self._carry)
-        carrier.parent = self.hub
-        self._carriers.append(carrier)
-        self._idle_carriers.append(carrier)
-
     def _carry(self) -> None:
         """What a carrier does: take the turns of strands, one after the other, in the order in which they were woken."""
         carrier: Any = running_greenlet()
         ready = self._ready
         while True:
-            strand = ready.popleft() if ready and not self._halted else self._next_strand()
+            strand = ready.popleft() if ready and not self.halted else self._next_strand()
             if strand is None or strand.body is not None:
                 carrier.strand = None
                 self._idle_carriers.append(carrier)
@@ -439,30 +400,27 @@ class Simulation(Face):
 
     def halt(self) -> None:
         """Stop the loop as soon as the running strand lets go, even if it only looks at the clock in a loop."""
-        self._halted = True
+        self.halted = True
         self._limit = 0
 
-    # -- the end ----------------------------------------------------------------------------------------------
+    def _greenlets(self) -> list[Strand | Carrier]:
+        return [*self.strands, *self._carriers]
 
-    def _unwind(self, strand: Strand) -> None:
-        try:
-            self.raise_in(strand, GreenletExit())
-        except BaseException as error:  # whatever it says now, nobody is there to hear it
-            del error
+    # -- the end ----------------------------------------------------------------------------------------------
 
     def close(self) -> None:
         """End the simulation for good: nothing of it runs again, and what stands somewhere in a call is unwound."""
         self.closed = True
-        with Guard(self):
-            for strand in list(self._strands):
+        with suppress(KeyboardInterrupt), Guard(self):
+            for strand in list(self.strands):
                 for _ in range(PATIENCE):
                     if strand and not strand.dead and not strand.warned:
-                        self._unwind(strand)
+                        with suppress(BaseException):  # whatever it says now, nobody is there to hear it
+                            self.raise_in(strand, GreenletExit())
         for carrier in self._idle_carriers:
             carrier.parent = running_greenlet()
             carrier.throw(GreenletExit)
-        _undead.extend(strand for strand in self._strands if strand and not strand.dead)
-        _undead.extend(carrier for carrier in self._carriers if carrier and not carrier.dead)
+        undead.extend(each for each in self._greenlets() if each and not each.dead)
         self._heap.clear()
         self._ready.clear()
 

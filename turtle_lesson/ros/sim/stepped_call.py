@@ -13,24 +13,16 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import interrupts
 from .errors import WorldClosed
 from .interrupts import Guard
-from .strand import GreenletExit, LoopAside, Strand, greenlet, running_greenlet
-
-if TYPE_CHECKING:
-    from .simulation import Simulation
-
-PATIENCE = 3
-"""How often a function that does not want to end is told that its world is closed."""
+from .simulation import NEVER, Simulation
+from .strand import PATIENCE, GreenletExit, LoopAside, Strand, greenlet, running_greenlet, undead
 
 STREAMS = ("argv", "stdout", "stderr")
 """What of `sys` the function may have replaced for a while, as `contextlib.redirect_stdout` does."""
-
-_undead: list[SteppedCall] = []
-"""Calls that did not end with their world; see `simulation._undead`."""
 
 
 class SteppedCall:
@@ -113,11 +105,10 @@ class SteppedCall:
         Raises KeyboardInterrupt when the user interrupts; the next step goes on from there, unless it was the function's own
         code that had to be interrupted: then that has got it, and is done as a rule.
         """
-        with Guard(self.simulation) as guard:
+        with Guard(self.simulation):
             self.simulation.check_it_can_run()
             if not self.done:
                 self._step(until, True, only_to_its_end=True)
-        guard.raise_if_interrupted()
 
     def close(self) -> None:
         """End the function, since its world is closed: its `finally` blocks run, but the world does not."""
@@ -129,7 +120,7 @@ class SteppedCall:
                     self._greenlet.parent = running_greenlet()
                     self._greenlet.throw(GreenletExit)
         if self._begun and not self.done and not self.runs_here:
-            _undead.append(self)
+            undead.append(self._greenlet)
         if self.simulation.stepped is self:
             self.simulation.stepped = None
 
@@ -173,11 +164,11 @@ class SteppedCall:
         simulation = self.simulation
         if simulation.halted:
             return False
-        if self._limit > simulation.end and (self._passes or simulation.busy):
+        if self._limit > simulation.end and (self._passes or simulation.next_event < NEVER):
             self._out_of_time = until == simulation.end
             return self._out_of_time
         if not self._passes:
-            return not simulation.has_events_before(self._limit)
+            return simulation.next_event >= self._limit
         if until < self._limit:
             return False
         simulation.now = until

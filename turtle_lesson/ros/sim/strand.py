@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from .process import Process
     from .simulation import Simulation
 
-__all__ = [
-    "Carrier",
-    "GreenletExit",
-    "Strand",
-    "greenlet",
-    "running_greenlet",
-    "running_strand",
-]
+__all__ = ["Carrier", "GreenletExit", "Strand", "greenlet", "running_greenlet", "running_strand"]
+
+PATIENCE = 3
+"""How often a call that does not want to end is told to, when its world closes."""
+
+undead: list[greenlet] = []
+"""Those that did not end then. They are kept: one that Python collects would be unwound in the middle of any other code, and
+would take the notebook's event loop for its own."""
 
 
 # -- strand -------------------------------------------------------------------------------------------------------
@@ -98,22 +98,14 @@ class Strand(greenlet):
         self.context: Context | None = None
         self.failure: BaseException | None = None
         self.parent = process.simulation.hub  # type: ignore[misc]
-        process.simulation.know(self)
+        process.simulation.strands.add(self)
 
     def park(self) -> None:
         """Stop here until woken. May also return early: callers check what they wait for, in a loop."""
         self.simulation.park(self)
 
-    def go_on(self) -> None:
-        """Go on out of turn (called by the hub)."""
-        self._own_body().switch()
-
-    def raise_inside(self, error: BaseException) -> None:
-        """Go on, with `error` raised at the place where the strand stopped (called by the hub)."""
-        self._own_body().throw(error)
-
-    def _own_body(self) -> greenlet:
-        """The greenlet on whose stack it stopped, which is about to go on."""
+    def own_body(self) -> greenlet:
+        """The greenlet on whose stack it stopped, for the hub to have it go on, or an error raised there."""
         self.parked = False
         if self.body is None:
             self.body = self
@@ -124,12 +116,6 @@ class Strand(greenlet):
     def frame(self) -> FrameType | None:
         """The innermost call in which it has stopped."""
         return self.gr_frame if self.body is None else self.body.gr_frame
-
-    def taken_failure(self) -> BaseException:
-        """What its last turn has raised, once."""
-        failure, self.failure = self.failure, None
-        assert failure is not None
-        return failure
 
     def __repr__(self) -> str:
         state = "dead" if self.dead else "parked" if self.parked else "ready or running"

@@ -54,21 +54,10 @@ CLOCKS: dict[str, Callable[..., Any]] = {
 # -- time of day -------------------------------------------------------------------------------------------------------
 
 _gmtime, _asctime, _strftime = time.gmtime, time.asctime, time.strftime
-_CLOCK_IDS = {getattr(time, "CLOCK_REALTIME", None): "time", getattr(time, "CLOCK_MONOTONIC", None): "monotonic"}
 
 
 def _utc(strand: Strand, seconds: float | None = None, /) -> time.struct_time:
     return _gmtime(time.time() if seconds is None else seconds)
-
-
-def _clock_gettime(unit: str) -> Callable[..., Any]:
-    other = getattr(time, f"clock_gettime{unit}", None)  # Windows has none
-
-    def clock_gettime(strand: Strand, clk_id: int, /) -> Any:
-        assert other is not None
-        return getattr(time, _CLOCK_IDS[clk_id] + unit)() if clk_id in _CLOCK_IDS else other(clk_id)
-
-    return clock_gettime
 
 
 DATES: dict[str, Callable[..., Any]] = {
@@ -78,16 +67,14 @@ DATES: dict[str, Callable[..., Any]] = {
     "ctime": lambda strand, seconds=None, /: _asctime(_utc(strand, seconds)),
     "strftime": lambda strand, form, moment=None, /: _strftime(form, _utc(strand) if moment is None else moment),
     "mktime": lambda strand, moment, /: float(calendar.timegm(moment)),
-    "clock_gettime": _clock_gettime(""),
-    "clock_gettime_ns": _clock_gettime("_ns"),
 }
 """By name in `time`, what tells the date in a simulated process."""
 
 
 # -- dates -------------------------------------------------------------------------------------------------------------
 # The real classes of `datetime` are made in C and cannot be changed. So the import statements of a program get a module
-# with two classes derived from them; `isinstance(…, datetime)` gives the same answer for both. Moments without a time
-# zone are taken for UTC, and not for the computer's.
+# with two classes derived from them; `isinstance(…, datetime)` gives the same answer for both. Moments without a time zone
+# are taken for UTC, and not for the computer's. `today()` needs no change: it gives `time.time()` to `fromtimestamp`.
 
 UTC = real.UTC
 
@@ -99,9 +86,6 @@ class _Date(type):
 
     def __instancecheck__(cls, instance: Any) -> bool:
         return isinstance(instance, cls._behind) if "_behind" in vars(cls) else super().__instancecheck__(instance)
-
-    def __subclasscheck__(cls, subclass: type) -> bool:
-        return issubclass(subclass, cls._behind) if "_behind" in vars(cls) else super().__subclasscheck__(subclass)
 
 
 class _Robots:
@@ -123,11 +107,6 @@ class date(_Robots, real.date, metaclass=_Date):
     __module__ = "datetime"
 
     @classmethod
-    def today(cls) -> date:
-        """The robot's day."""
-        return cls.fromtimestamp(time.time())
-
-    @classmethod
     def fromtimestamp(cls, timestamp: float, /) -> date:
         """The day at a number of seconds since 1970."""
         moment = real.datetime.fromtimestamp(timestamp, UTC)
@@ -146,22 +125,15 @@ class datetime(_Robots, real.datetime, metaclass=_Date):
         return cls.fromtimestamp(time.time(), tz)
 
     @classmethod
-    def today(cls) -> datetime:
+    def utcnow(cls) -> datetime:
         """As `now()`."""
         return cls.fromtimestamp(time.time())
-
-    utcnow = today
 
     @classmethod
     def fromtimestamp(cls, timestamp: float, tz: real.tzinfo | None = None) -> datetime:
         """The moment at a number of seconds since 1970."""
         moment = super().fromtimestamp(timestamp, UTC)
         return moment.replace(tzinfo=None) if tz is None else real.datetime.astimezone(moment, tz)
-
-    @classmethod
-    def utcfromtimestamp(cls, timestamp: float, /) -> datetime:
-        """The same, in UTC without naming it."""
-        return cls.fromtimestamp(timestamp)
 
     def timestamp(self) -> float:
         """Seconds since 1970."""
@@ -171,10 +143,6 @@ class datetime(_Robots, real.datetime, metaclass=_Date):
         """The same moment in another time zone."""
         moment = self if self.tzinfo is not None else self.replace(tzinfo=UTC)
         return real.datetime.astimezone(moment, UTC if tz is None else tz)
-
-    def date(self) -> date:
-        """Its day."""
-        return date(self.year, self.month, self.day)
 
 
 def make_module() -> ModuleType:

@@ -135,17 +135,12 @@ class _Facade(type):
         if not any(isinstance(base, _Facade) for base in bases):
             return super().__new__(mcls, name, bases, namespace)
         virtual = process_here() is not None
-        real_bases = tuple(base._behind(virtual) if isinstance(base, _Facade) else base for base in bases)
+        behind = "_virtual" if virtual else "_real"
+        real_bases = tuple(getattr(base, behind) if isinstance(base, _Facade) else base for base in bases)
         return type(real_bases[0])(name, real_bases, namespace, **keywords)
-
-    def _behind(cls, virtual: bool) -> Any:
-        return cls._virtual if virtual else cls._real
 
     def __init__(cls, name: str, bases: tuple[type, ...], namespace: dict[str, Any], **keywords: Any) -> None:
         super().__init__(name, bases, namespace)
-
-    def __repr__(cls) -> str:
-        return repr(cls._real)
 
     def __getattr__(cls, name: str) -> Any:
         return getattr(cls._real, name)

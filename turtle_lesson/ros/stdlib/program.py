@@ -104,10 +104,6 @@ class ProgramLoader(SourceFileLoader):
         finally:
             self._modules.show()  # the code may have let others go on
 
-    def get_code(self, fullname: str) -> CodeType:
-        """The module's code."""
-        return code_of(self.path)
-
 
 on_import: dict[str, Callable[[], ModuleType | None]] = {}
 """By the first name of a module of the standard library: called when a program imports it, and may give another."""
@@ -272,9 +268,3 @@ class ProgramSys(ModuleType):
         if name in _OF_THE_PROCESS:
             setattr(self.__dict__["_process"], name, value)
         setattr(sys, name, value)
-
-    def __delattr__(self, name: str) -> None:
-        delattr(sys, name)
-
-    def __dir__(self) -> list[str]:
-        return dir(sys)
