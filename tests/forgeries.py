@@ -31,6 +31,8 @@ os.kill(os.getppid(), 9)
 TOLD_BY_THE_PARENTS_FILES = f"""{_LINES}
 for parent in (os.getppid(), os.getpid()):
     for file in glob.glob(f"/proc/{{parent}}/fd/*"):
+        if os.path.isfile(file):
+            continue  # the answer goes through none, and it would spoil one of the computer's, a library perhaps
         try:
             descriptor = os.open(file, os.O_WRONLY | os.O_NONBLOCK)
             os.write(descriptor, text.encode())
