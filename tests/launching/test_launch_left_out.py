@@ -79,9 +79,9 @@ def test_a_cpp_program_of_the_workspace(tmp_path: Path, capsys: pytest.CaptureFi
         tmp_path,
         """\
         project(arm)
-        find_package(ament_cmake_auto REQUIRED)
+        find_package(ament_cmake REQUIRED)
         add_executable(fast src/fast.cpp)
-        ament_auto_add_executable(faster src/faster.cpp)
+        add_executable(faster src/faster.cpp)
         rclcpp_components_register_node(arm PLUGIN "arm::Arm" EXECUTABLE component)
         """,
         "CMakeLists.txt",
