@@ -28,14 +28,18 @@ from ..idl.names import did_you_mean
 from ..runtime.world import current_world, run_for
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
+from ..sim.strand import running_strand
 from .errors import LaunchError, as_launch_error, learners_cause
-from .processes import Processes, RosHelper
+from .processes import RosHelper, RunningProcess
 
 if TYPE_CHECKING:
     from launch.actions import ExecuteProcess
 
     from ..runtime.world import World
     from ..sim.process import Process
+
+START_UP = 300_000_000
+"""How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
 
 
 class LaunchService:
@@ -46,10 +50,14 @@ class LaunchService:
         self.given = given
         self.context = LaunchContext()
         self.context._host = self
-        self.processes = Processes(self)
+        self.processes: list[RunningProcess] = []
+        """In the order of their start."""
+        self.up_at = 0
+        """The robot time, in ns, at which the last of the programs that have been started is up."""
         self.numbers = count(1)
         """What is after the dash in `navigator-1`."""
         self._waiting: list[ExecuteProcess] = []
+        self._ending: list[RunningProcess] | None = None
         self._timers = 0
         self._settling = False
         self._helper: RosHelper | None = None
@@ -62,12 +70,56 @@ class LaunchService:
     @property
     def running(self) -> bool:
         """Whether a process runs, or something is still to come."""
-        return bool(self.processes.alive) or (self._timers > 0 and not self.context.is_shutdown)
+        return any(process.alive for process in self.processes) or (self._timers > 0 and not self.context.is_shutdown)
 
     def start_process(self, action: ExecuteProcess) -> None:
         """Have an action's process started as soon as what is being walked through is done."""
         self._waiting.append(action)
         self.settle_soon()
+
+    def _start(self, action: ExecuteProcess) -> None:
+        if self.context.is_shutdown:
+            return
+        if action.cwd:
+            self.warn_once("here all programs work in the notebook's folder, whatever cwd= says")
+        if action.prefix_left_out:
+            self.warn_once(f"{action.prefix_left_out} is left out: programs run here without a prefix")
+        self.processes.append(RunningProcess(self, action))
+        self.processes[-1].start()
+
+    def next_start_up(self) -> int:
+        """How long the next Python program takes until it begins (ns), as they come up one after the other."""
+        now = self.world.sim.now
+        self.up_at = max(self.up_at, now) + START_UP
+        return self.up_at - now
+
+    def ended(self, process: RunningProcess) -> None:
+        """A process is dead: say how, and go on from there."""
+        if self._ending is not None:
+            self._ending.append(process)
+            return
+        process.last_words()
+        if running_strand() is None:
+            self.carry_on(process.after_end)
+        else:  # still within the dying process: leave it first
+            self.world.sim.call_later(0, self.carry_on, process.after_end)
+
+    def _end_processes(self, *, said: bool) -> None:
+        """Interrupt all processes, and see to it that they end. Their last words come after all their output."""
+        alive = [process for process in self.processes if process.alive]
+        for process in reversed(alive) if said else ():
+            process.announce("SIGINT")
+        self._ending = []
+        for process in alive:
+            if process.process is not None and process.alive:
+                process.process.interrupt()
+        ended, self._ending = self._ending, None
+        for process in ended:
+            process.last_words()
+            process.after_end()
+        for process in alive:
+            if process.alive:
+                process.terminate_later()
 
     def call_later(self, seconds: float, function: Callable[[], None]) -> None:
         """Have a function called after some robot time, within this launch."""
@@ -180,7 +232,7 @@ class LaunchService:
         while self._waiting or self.context._event_queue:
             if self._waiting:
                 drawn = self.world.start_order
-                self.processes.add(self._waiting.pop(0 if drawn is None else drawn.randrange(len(self._waiting))))
+                self._start(self._waiting.pop(0 if drawn is None else drawn.randrange(len(self._waiting))))
             else:
                 self._handle(self.context._event_queue.popleft())
 
@@ -215,7 +267,8 @@ class LaunchService:
                     self.visit(entity)
             finally:
                 self.context._pop("_locals")
-        self.processes.react(event)
+        if isinstance(event, Shutdown):
+            self._end_processes(said=not event.due_to_sigint)
 
 
 def service_here() -> LaunchService:
@@ -254,7 +307,7 @@ class LaunchHandle:
     def wait_until_up(self) -> None:
         """Let robot time pass until the programs that have been started so far are up, one after the other."""
         world = self._service.world
-        run_for(world, max(0, self._service.processes.up_at - world.now) / NANOSECONDS)
+        run_for(world, max(0, self._service.up_at - world.now) / NANOSECONDS)
         world.sim.settle()
 
     def stop(self) -> None:
