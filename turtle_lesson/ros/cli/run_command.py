@@ -16,8 +16,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
-from ..launching.commands import ForeignCommand, UnknownCommand
+from ..launching.commands import UnknownCommand
 from ..runtime.world import Waiter, current_process
 from .arguments import WIDTH, Stop, cut
 from .jobs import Errors, Job, cell_streams, jobs, lasting
@@ -113,7 +114,7 @@ def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
     for sign, pipeline in plan:
         command = pipeline[0]
         if len(pipeline) > 1 or command.stdout or command.stderr or command.given or command.background:
-            raise ForeignCommand(
+            raise NotHereError(
                 f"the command {text!r}",
                 "it uses '|', '>' or '&', which launched commands cannot use here",
                 "Only one command, or several with '&&' or ';' between them, can be run.",

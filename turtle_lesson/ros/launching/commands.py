@@ -43,39 +43,25 @@ Main = Callable[[], int | None]
 
 
 class UnknownCommand(NotImplementedError):
-    """A command that the simulation does not have. `hint` says what to do instead."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.hint = hint
-
-
-class ForeignCommand(UnknownCommand, NotHereError):
-    """A command that a robot's computer would run."""
-
-    def __init__(self, what: str, why: str, hint: str = "") -> None:
-        NotHereError.__init__(self, what, why, hint)
+    """A command that is wrong, such as one that names a file that is not there."""
 
 
 def program(words: Sequence[str], *, shell: bool = False) -> Program:
     """What the words of a command run; a `shell` takes them apart itself.
 
-    Raises UnknownCommand if the simulation does not have this command, and PackageNotFoundError or
-    ExecutableNotFoundError if `ros2 run` names what is not there.
+    Raises UnknownCommand if the command is wrong, NotHereError if only a robot's computer has it, and PackageNotFoundError
+    or ExecutableNotFoundError if `ros2 run` names what is not there.
     """
     shown = " ".join(words)
-    name = PurePath(words[0]).name if words[0] else ""
-    if shell or (name in SHELLS and len(words) == 3 and words[1] == "-c"):
-        return _script(shown if shell else words[2], list(words), shown)
-    return _simple(list(words), shown)
-
-
-def _script(text: str, argv: list[str], shown: str) -> Program:
-    """A shell's text: one command, or several one after the other."""
+    text = shown if shell else ""
+    if not shell and PurePath(words[0]).name in SHELLS and len(words) == 3 and words[1] == "-c":
+        shell, text = True, words[2]
+    if not shell:
+        return _simple(list(words), shown)
     commands = hooks.commands_of_text(text)
     if len(commands) == 1:
         return replace(_simple(commands[0][1], shown), shown=shown)
-    mains = [(sign, _main(words)) for sign, words in commands]
+    mains = [(sign, _main(command)) for sign, command in commands]
 
     def main() -> int:
         code = 0
@@ -85,7 +71,7 @@ def _script(text: str, argv: list[str], shown: str) -> Program:
             code = run() or 0
         return code
 
-    return Program(_ending(main), argv, shown)
+    return Program(_ending(main), list(words), shown)
 
 
 def _ending(main: Main) -> Callable[[], None]:
@@ -103,77 +89,58 @@ def _ending(main: Main) -> Callable[[], None]:
 
 def _simple(words: list[str], shown: str) -> Program:
     """One command: a program of a package, a Python file, or a function of this module."""
-    if words[:2] == ["ros2", "run"] and len(words) > 2:
-        return _ros2_run(words, shown)
     packages = current_packages()
+    if words[:2] == ["ros2", "run"] and len(words) > 2:  # the program itself, without `ros2` around it
+        given = hooks.run_arguments(words[1:])
+        try:
+            target = packages.executable(given.package_name, given.executable_name)
+        except ExecutableNotFoundError as error:
+            raise explained(UnknownCommand("No executable found"), error.hint) from None
+        path = packages.get(given.package_name).libexec / given.executable_name
+        return Program(target, [path.as_posix(), *given.argv], shown)
     if "/" in words[0] and (found := packages.program_at(words[0])):
         return Program(packages.executable(*found), words, shown.replace(words[0], shown_path(words[0]), 1))
-    name = PurePath(words[0]).name
-    if (words[0] == sys.executable or name in {"python", "python3"}) and len(words) > 1:
-        return Program(_python_file(words[1], shown), words[1:], shown)
-    if name.endswith(".py") and "/" in words[0]:
-        return Program(_python_file(words[0], shown), words, shown)
+    is_python = words[0] == sys.executable or PurePath(words[0]).name in {"python", "python3"}
+    argv = words[1:] if is_python else words
+    if argv and (is_python or (argv[0].endswith(".py") and "/" in argv[0])):
+        path = Path(argv[0])
+        if not path.is_file():
+            what = f"there is no file {path}" if argv[0][0] != "-" else "a Python file is run by its path"
+            raise UnknownCommand(f"ExecuteProcess(cmd='{shown}'): {what}")
+        return Program(path.resolve(), argv, shown)
     return Program(_ending(_main(words)), words, shown)
 
 
-def _python_file(name: str, shown: str) -> Path:
-    path = Path(name)
-    if name.startswith("-") or not path.is_file():
-        what = "a Python file is run by its path" if name.startswith("-") else f"there is no file {name}"
-        raise UnknownCommand(f"ExecuteProcess(cmd='{shown}'): {what}")
-    return path.resolve()
-
-
-def _ros2_run(words: list[str], shown: str) -> Program:
-    """The program that `ros2 run` names, run without `ros2` around it."""
-    given = hooks.run_arguments(words[1:])
-    packages = current_packages()
-    try:
-        target = packages.executable(given.package_name, given.executable_name)
-    except ExecutableNotFoundError as error:
-        raise UnknownCommand("No executable found", error.hint) from None
-    path = packages.get(given.package_name).libexec / given.executable_name
-    return Program(target, [path.as_posix(), *given.argv], shown)
-
-
 def _main(words: list[str]) -> Main:
-    """The function that a command is. Raises UnknownCommand if the simulation does not have it."""
+    """The function that a command is. Raises NotHereError if the simulation does not have it."""
     name = PurePath(words[0]).name
+    if words[:2] == ["ros2", "launch"]:
+        why = "a launch file is included with IncludeLaunchDescription(path_of_the_launch_file)"
+        raise NotHereError(" ".join(words), why)
     if name == "ros2":
-        if words[1:2] == ["launch"]:
-            why = "a launch file is included with IncludeLaunchDescription(path_of_the_launch_file)"
-            raise ForeignCommand(" ".join(words), why)
         return lambda: hooks.run_ros2(words)
     if name in _SMALL:
         return lambda: _SMALL[name](words[1:])
     if " " in words[0]:
-        raise UnknownCommand(
-            f"ExecuteProcess(cmd='{' '.join(words)}'): there is no program called '{words[0]}'",
+        raise explained(
+            UnknownCommand(f"ExecuteProcess(cmd='{' '.join(words)}'): there is no program called '{words[0]}'"),
             "cmd is a list of single words, ['ros2', 'topic', 'list']; a single string needs shell=True.",
         )
     why = why_not_here(name) or hooks.advice_about_command([name, *words[1:]])
-    raise ForeignCommand(name or "a command without a name", why or "it is a program of the operating system")
-
-
-def _echo(words: Sequence[str]) -> None:
-    if words[:1] == ["-n"]:
-        print(*words[1:], end="")
-    else:
-        print(*words)
+    raise NotHereError(name or "a command without a name", why or "it is a program of the operating system")
 
 
 def _sleep(words: Sequence[str]) -> int:
-    units = {"s": 1.0, "m": 60.0, "h": 3600.0}
     try:
-        time.sleep(sum(float(word.rstrip("smh")) * units.get(word[-1:], 1.0) for word in words))
-    except (ValueError, OverflowError):
+        time.sleep(sum(float(word.removesuffix("s")) for word in words))
+    except ValueError:
         print(f"sleep: invalid time interval {' '.join(words)!r}", file=sys.stderr)
         return 1
     return 0
 
 
-_SMALL: dict[str, Callable[[Sequence[str]], Any]] = {
-    "echo": _echo,
+_SMALL: dict[str, Callable[[Sequence[str]], int | None]] = {
+    "echo": lambda words: print(*words),
     "exit": lambda words: sys.exit(int(words[0]) if words and words[0].isdigit() else 0),
     "false": lambda words: 1,
     "sleep": _sleep,
@@ -187,19 +154,14 @@ def output_of(text: str) -> str:
     Raises SubstitutionFailure if it fails, or the simulation does not have it, and NotHereError if it needs a Python package
     that is not installed.
     """
-    try:
-        words = shlex.split(text)
-    except ValueError as error:
-        raise SubstitutionFailure(str(error)) from None
-    if not words:
-        raise SubstitutionFailure("there is no command")
-    name = PurePath(words[0]).name
-    if name == "echo":
-        return " ".join(words[1:]) + "\n"
-    if name == "cat":
-        return "".join(_read(word) for word in words[1:])
-    if name == "xacro":
-        return _xacro(words[1:])
+    name, *words = shlex.split(text) or [""]
+    match PurePath(name).name:
+        case "echo":
+            return " ".join(words) + "\n"
+        case "cat":
+            return "".join(_read(word) for word in words)
+        case "xacro":
+            return _xacro(words)
     failure = SubstitutionFailure(f"'{name}' is a program of the operating system, which launch files cannot run here")
     raise explained(failure, "Command(…) can run cat FILE, echo TEXT and xacro FILE.")
 
@@ -252,9 +214,8 @@ def plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
     if shell and words:
         words[0] = _SETUP.sub("", words[0])  # what a setup file sets up is there already
     line = " ".join(words)
-    notebook = (
-        notebook_here()
-    )  # a cell, or a launch file that it loads, may run `ros2` commands, which only the world has
+    # a cell, or a launch file that it loads, may run `ros2` commands, which only the world has
+    notebook = notebook_here()
     of_cell = notebook is not None and not notebook.simulation.running and line.split()[:1] == ["ros2"]
     if not line.strip() or not (of_cell or running_strand() is not None):
         return None
@@ -263,19 +224,16 @@ def plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
         return partial(_launch, words[2:]), words
     try:
         found = program(words, shell=shell)
-    except (UnknownCommand, PackageNotFoundError) as error:
+    except (UnknownCommand, NotHereError, PackageNotFoundError) as error:
         if line.startswith("ros2 run "):  # which only complains
             return partial(_fail, f"{error}"), words
-        if _OF_THE_WORLD.search(line):
-            raise NotImplementedError(_refusal(line, error)) from None
-        return None
+        if not _OF_THE_WORLD.search(line):
+            return None
+        said = f"{error}" if not str(error).startswith("ExecuteProcess(") else "it is a program of the operating system"
+        why = f"{line!r} cannot be started by a program here ({getattr(error, 'why', said)})"
+        can = "ros2 commands, Python files, echo and sleep can."
+        raise NotImplementedError(f"{why}: {can} {getattr(error, 'hint', '')}".strip()) from None
     return found.target, found.argv
-
-
-def _refusal(line: str, error: Exception) -> str:
-    said = f"{error}" if not str(error).startswith("ExecuteProcess(") else "it is a program of the operating system"
-    why = f"{line!r} cannot be started by a program here ({getattr(error, 'why', said)})"
-    return f"{why}: ros2 commands, Python files, echo and sleep can. {getattr(error, 'hint', '')}".strip()
 
 
 def _launch(words: list[str]) -> None:

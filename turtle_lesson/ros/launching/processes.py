@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import signal
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,9 @@ from ..ament.package import PythonProgram
 if TYPE_CHECKING:
     from launch.actions import ExecuteProcess
     from lifecycle_msgs.msg import TransitionEvent
+    from rclpy.client import Client
+    from rclpy.node import Node
+    from rclpy.timer import Timer
 
     from ..runtime.world import World
     from ..sim.process import Process
@@ -184,73 +188,69 @@ class RosHelper:
     def __init__(self, world: World, carry_on: Callable[[Callable[[], None]], None]) -> None:
         self._world = world
         self._carry_on = carry_on
-        self._orders: list[Callable[[], None]] = []
-        self._node: Any = None
-        self._clients: dict[str, Any] = {}
+        self._orders: list[Callable[[Node], object]] = []
+        self._wake: Callable[[], None] | None = None
+        self._clients: dict[str, Client] = {}
         self._ended = False
         self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
 
     def _main(self) -> None:
         import rclpy
-        from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+        from rclpy.executors import ExternalShutdownException
 
         rclpy.init(args=[])
-        self._node = rclpy.create_node(f"launch_ros_{self._process.pid}", start_parameter_services=False)
-        executor = SingleThreadedExecutor()
-        executor.add_node(self._node)
-        self._wakes = self._node.create_guard_condition(self._work)
-        self._work()
-        try:
-            executor.spin()
-        except (KeyboardInterrupt, ExternalShutdownException):
-            pass
-        finally:
-            rclpy.try_shutdown()
+        node = rclpy.create_node(f"launch_ros_{self._process.pid}", start_parameter_services=False)
 
-    def _work(self) -> None:
-        """Carry the orders out, in the helper's own process."""
-        while self._orders:
-            self._orders.pop(0)()
+        def work() -> None:
+            while self._orders:
+                self._orders.pop(0)(node)
 
-    def _order(self, order: Callable[[], None]) -> None:
+        self._wake = node.create_guard_condition(work).trigger
+        work()
+        with suppress(KeyboardInterrupt, ExternalShutdownException):
+            rclpy.spin(node)
+
+    def _order(self, order: Callable[[Node], object]) -> None:
+        """Have something done in the helper's own process."""
         self._orders.append(order)
-        if self._node is not None:
-            self._wakes.trigger()
+        if self._wake is not None:
+            self._wake()
 
     def _tell(self, function: Callable[[], None]) -> None:
         """Call a function of the launch, outside of this process and at this instant."""
         if not self._ended:
             self._world.sim.call_later(0, self._carry_on, function)
 
-    def watch(self, node_name: str, heard: Callable[[Any], None]) -> None:
+    def watch(self, node_name: str, heard: Callable[[TransitionEvent], None]) -> None:
         """Have a function called with each TransitionEvent of a node."""
         from lifecycle_msgs.msg import TransitionEvent
 
-        def subscribe() -> None:
-            topic = f"{node_name}/transition_event"
-            self._node.create_subscription(TransitionEvent, topic, lambda msg: self._tell(lambda: heard(msg)), 10)
-
-        self._order(subscribe)
+        topic = f"{node_name}/transition_event"
+        self._order(
+            lambda node: node.create_subscription(
+                TransitionEvent, topic, lambda msg: self._tell(lambda: heard(msg)), 10
+            )
+        )
 
     def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
         """Ask a node for a transition, as soon as it has the service; the function is called with the answer."""
         from lifecycle_msgs.srv import ChangeState
 
-        def call() -> None:
+        def call(node: Node) -> None:
             if node_name not in self._clients:
-                self._clients[node_name] = self._node.create_client(ChangeState, f"{node_name}/change_state")
+                self._clients[node_name] = node.create_client(ChangeState, f"{node_name}/change_state")
             client = self._clients[node_name]
             if not client.service_is_ready():  # wait without holding up what other nodes tell
-                timer: Any = self._node.create_timer(LOOKS_AGAIN, lambda: again(timer))
+                timer = node.create_timer(LOOKS_AGAIN, lambda: again(node, timer))
                 return
             request = ChangeState.Request()
             request.transition.id = transition_id
             future = client.call_async(request)
             future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
 
-        def again(timer: Any) -> None:
-            self._node.destroy_timer(timer)
-            call()
+        def again(node: Node, timer: Timer) -> None:
+            node.destroy_timer(timer)
+            call(node)
 
         self._order(call)
 
