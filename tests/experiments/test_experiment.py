@@ -228,7 +228,6 @@ def has_jobs(lesson: Any, jobs: int) -> None: ...
         (drive, {"kind": "a", "start_order": "any"}, "start_order must be 'as written' or 'shuffled', got 'any'"),
         (drive, {"kind": "a", "distro": ["humble", "old"]}, 'distro must be one of the releases "humble", "iron"'),
         (drive, {"kind": "a", "package": "nowhere"}, 'package must be "finished", "mine", None or the folder of a package'),
-        (drive, {"kind": "a", "resume": "no.csv"}, "there is no file no.csv"),
         (takes_no_lesson, {}, "takes_no_lesson must take the lesson as its first parameter: def takes_no_lesson(lesson): …"),
         (has_jobs, {}, "has_jobs has a parameter 'jobs', as experiment() itself has: give it another name"),
         (holds_a_lock, {}, "holds_a_lock cannot be sent to a worker process: it uses lock"),

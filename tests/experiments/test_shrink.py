@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from turtle_lesson.experiments import ExperimentError, Results, experiment
+from turtle_lesson.experiments import ExperimentError, experiment
 from turtle_lesson.experiments.experiment import plan, search_failure
 from turtle_lesson.experiments.one_run import OK, RAISED, Ending, Run, call_in
 from turtle_lesson.experiments.shrink import MOST_RUNS, Smallest, rounder, smallest_change
@@ -180,34 +180,18 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
     assert len(results) == 29 and results.missing == 11 and [row["run"] for row in results.failed] == [28]
     assert results.smallest == {"loss": 0.2, "driver": "hasty"}
     runs, swept = plan(breaks, range(5), SWEEP, package=None, distro=None, start_order="as written")
-    endings, found = search_failure(Backwards(), runs, [], swept, False)
+    endings, smallest = search_failure(Backwards(), runs, swept, False)
     assert capsys.readouterr().out == SAID
     assert [(run.number, ending.outcome) for run, ending in endings] == [
         (row["run"], row["outcome"]) for row in results
     ]
-    assert found is not None and found.change == results.smallest
-    again = results.replay("smallest")
-    again.run()
-    assert again.row["error"] == "AssertionError: lost" and again.row["loss"] == 0.2
-
-
-def test_what_is_known_already_is_not_carried_out_again() -> None:
-    runs, swept = plan(breaks, range(5), SWEEP, package=None, distro=None, start_order="as written")
-    first, pool = Backwards(), Backwards()
-    known = list(first.carry_out([run for run in runs if run.number in (0, 5, 29, 38)]))
-    endings, _ = search_failure(pool, runs, known, swept, False)
-    assert [run.number for run, _ in endings] == list(range(29))
-    assert sorted(pool.carried_out[:27]) == [number for number in range(29) if number not in (0, 5)]
+    assert smallest == results.smallest
 
 
 def test_nothing_that_fails_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     runs, swept = plan(breaks, range(3), {"loss": [0.1]}, package=None, distro=None, start_order="as written")
-    endings, found = search_failure(Backwards(), runs, [], swept, False)
+    endings, smallest = search_failure(Backwards(), runs, swept, False)
     assert capsys.readouterr().out == "None of the 3 runs failed.\n"
-    assert len(endings) == 3 and found is None
-    results = Results.of(endings, swept)
-    assert results.smallest is None
-    with pytest.raises(ExperimentError, match="no smallest change is known"):
-        results.replay("smallest")
+    assert len(endings) == 3 and smallest is None
     with pytest.raises(ExperimentError, match='until must be "failure" or None'):
         experiment(breaks, until="error", loss=0.1)

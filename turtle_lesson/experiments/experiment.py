@@ -23,8 +23,8 @@ from .one_run import OK, OPTIONS, PLAIN, Ending, ExperimentError, Run, name_of, 
 from .payload import setting_for
 from .pools import LocalPool, Pool, cores
 from .replay import Replay
-from .results import Results, described, rows_of
-from .shrink import Smallest, smallest_change
+from .results import Results, described
+from .shrink import smallest_change
 
 MOST_JOBS = 512
 
@@ -57,7 +57,6 @@ def experiment(
     robot_time: float = 600.0,
     cpu_time: float = 60.0,
     until: str | None = None,
-    resume: str | Path | None = None,
     progress: bool | None = None,
     **parameters: Any,
 ) -> Results:
@@ -76,7 +75,6 @@ def experiment(
         simulator: as for `start`.
         robot_time, cpu_time: how many seconds a run may take, of robot time and of computing.
         until: "failure" carries out runs in order until one fails, and looks for the smallest change that still fails.
-        resume: a file of `results.save(…)`: runs that are in it are not carried out again.
         progress: whether a bar is shown; None: in a live notebook and in a terminal.
         parameters: by name, a list of values to sweep, or a single one. The function's own defaults hold for all others.
 
@@ -90,18 +88,15 @@ def experiment(
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
     world = {name: getattr(runs[0], name) for name in OPTIONS if name not in swept}
     about = described(function, setting, world)
-    endings = [] if resume is None else rows_of(resume, runs, swept, about)
-    there = {run.number for run, _ in endings}
     smallest = None
-    if (left := [run for run in runs if run.number not in there]) or until:
-        with closing(_open_pool(setting, len(left), jobs, client)) as pool:
-            if until is None:
-                endings += carry_out(pool, left, progress)
-            else:
-                endings, smallest = search_failure(pool, runs, endings, swept, progress)
+    with closing(_open_pool(setting, len(runs), jobs, client)) as pool:
+        if until is None:
+            endings = carry_out(pool, runs, progress)
+        else:
+            endings, smallest = search_failure(pool, runs, swept, progress)
     missing = len(runs) - len(endings)
-    results = Results.of(endings, swept, about=about, missing=missing, function=function, setting=setting)
-    results.found = smallest
+    results = Results(endings, swept, about=about, missing=missing, function=function, setting=setting)
+    results.smallest = smallest
     defaults.get().finished(results)
     return results
 
@@ -127,13 +122,13 @@ def replay(
     runs, swept = plan(function, [seed], given, package=package, distro=distro, start_order=start_order)
     check_limits(None, robot_time=robot_time)
     setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time)
-    table = Results.of([], swept)
+    table = Results([], swept)
     return Replay(setting, runs[0], lambda ending: table.row_of(runs[0], ending))
 
 
 def _open_pool(setting: one_run.Setting, runs: int, jobs: int | None, client: Any) -> Pool:
     if client is None:
-        return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), max(runs, 1)))
+        return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), runs))
     from .cluster import ClusterPool
 
     return ClusterPool(setting, client)
@@ -153,23 +148,18 @@ def carry_out(
                 if at_once and any(ending.outcome != OK for _, ending in done):
                     break
     except KeyboardInterrupt:
-        print(
-            f"Stopped: {len(done)} of {len(runs)} runs were over. They are in the table; resume= goes on from a saved one."
-        )
+        print(f"Stopped: {len(done)} of {len(runs)} runs were over. They are in the table.")
     return done
 
 
 def search_failure(
-    pool: Pool, runs: Sequence[Run], known: list[tuple[Run, Ending]], swept: Sequence[str], progress: bool | None
-) -> tuple[list[tuple[Run, Ending]], Smallest | None]:
+    pool: Pool, runs: Sequence[Run], swept: Sequence[str], progress: bool | None
+) -> tuple[list[tuple[Run, Ending]], dict[str, Any] | None]:
     """Carry out runs in their order until one fails; then look for the smallest change with which that fails.
 
     What was carried out beyond the failing run, since workers work side by side, is left out of the table.
     """
-    failing = [run.number for run, ending in known if ending.outcome != OK]
-    there = {run.number for run, _ in known}
-    left = [run for run in runs if run.number not in there and run.number < min(failing, default=len(runs))]
-    done = sorted([*known, *carry_out(pool, left, progress, AT_ONCE)], key=lambda each: each[0].number)
+    done = sorted(carry_out(pool, runs, progress, AT_ONCE), key=lambda each: each[0].number)
     first = next((at for at, (_, ending) in enumerate(done) if ending.outcome != OK), None)
     if first is None:
         if len(done) == len(runs):
@@ -183,7 +173,7 @@ def search_failure(
     found = smallest_change(run, ending, base, lambda another: next(iter(pool.carry_out([another])))[1])
     if text := found.told():
         print(text)
-    return done[: first + 1], found
+    return done[: first + 1], found.change
 
 
 # -- the plan ------------------------------------------------------------------------------------------------------------

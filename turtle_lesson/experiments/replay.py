@@ -189,30 +189,17 @@ class Replay:
         return self._ending is not None and self._ending.error.startswith("KeyboardInterrupt")
 
 
-def replay_of(results: Results, wanted: int | str | None, function: Callable[..., Any] | None) -> Replay:
+def replay_of(results: Results, wanted: int | None, function: Callable[..., Any] | None) -> Replay:
     """Open a run of a table. Raises ExperimentError where that cannot be."""
-    if wanted == "smallest":
-        if results.found is None:
-            raise ExperimentError('no smallest change is known: experiment(…, until="failure") looks for one')
-        run = results.found.run
-        row = results.row_of(run, results.found.ending)
-    else:
-        row = _row_of(results, wanted)
-        run = results.runs[row["run"]]
-    then = results.about.get("function")
-    if (setting := results.setting) is None or function is not None:
-        if function is None:
-            raise ExperimentError(
-                "this table was read from a file, which does not hold the function: give it, as in "
-                f"results.replay({row['run']}, drive)"
-            )
-        limits = {name: results.about[name] for name in ("simulator", "robot_time") if name in results.about}
-        setting = setting_for(function, [run], **limits)
+    row, setting = _row_of(results, wanted), results.setting
+    run = results.runs[row["run"]]
+    assert results.function is not None and setting is not None
+    if function is not None:
+        setting = setting_for(function, [run], simulator=setting.simulator, robot_time=setting.robot_time)
         now, what = function, "it is replayed as it is now, and may end otherwise."
     else:
-        assert results.function is not None
         now, what = _as_it_is_now(results.function), "it is replayed as it was then."
-    if then is not None and then != f"{name_of(now)} {hash_of(now)}":
+    if results.about["function"] != f"{name_of(now)} {hash_of(now)}":
         print(f"{name_of(now)}, or something that it uses, has changed since this experiment; {what}")
     if row["outcome"] == DIED:
         print(f"Run {run.number} ended its worker process. What did that may end this kernel, too.")
@@ -221,7 +208,7 @@ def replay_of(results: Results, wanted: int | str | None, function: Callable[...
     return Replay(setting, run, lambda ending: results.row_of(run, ending), row)
 
 
-def _row_of(results: Results, wanted: int | str | None) -> dict[str, Any]:
+def _row_of(results: Results, wanted: int | None) -> dict[str, Any]:
     if wanted is None:
         if not results.failed.rows:
             raise ExperimentError("no run of this table has failed: say which one to open, as in results.replay(0)")

@@ -1,13 +1,10 @@
-"""What comes out of an experiment: a row for each run, in the order of the runs, whatever workers carried them out.
-
-Further: what makes an experiment the same, so that saved rows of it are kept; and the picture of a column.
-"""
+"""What comes out of an experiment: a row for each run, in the order of the runs, whatever workers carried them out."""
 
 from __future__ import annotations
 
 import platform
 from collections.abc import Callable, Iterable, Sequence
-from functools import cached_property
+from copy import copy
 from importlib.metadata import version
 from math import sqrt
 from pathlib import Path
@@ -18,17 +15,16 @@ import numpy as np
 
 from ..lab import drawing
 from ..lab.drawing import Picture
-from ..lab.words import count, enumerated, listed
-from .one_run import CPU_TIME, DIED, OK, OPTIONS, VERSION, Ending, ExperimentError, Run, Setting, name_of
+from ..lab.words import count, enumerated
+from .one_run import OK, VERSION, Ending, ExperimentError, Run, Setting, name_of
 from .payload import hash_of, hash_of_folders
-from .table import Table, read, save, text_of
+from .table import Table, save, text_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from ..lab.drawing import Picture
     from .replay import Replay
-    from .shrink import Smallest
 
 
 FIRST = ("run", "seed")
@@ -46,32 +42,32 @@ class Results(Table):
         swept: the names of those that were inputs.
         missing: how many runs were not carried out, since the experiment was stopped.
         about: versions, hashes and settings, which are saved with the rows.
-        function, setting: what was run; None where the rows were read from a file.
+        runs: the runs, by their numbers.
+        function, setting: what was run.
+        smallest: what `until="failure"` has found: the values that differ from the first ones in the smallest change that
+            still fails. None where nothing failed, or nothing was looked for.
     """
+
+    smallest: dict[str, Any] | None = None
 
     def __init__(
         self,
-        rows: Iterable[dict[str, Any]],
-        columns: Sequence[str],
+        endings: Iterable[tuple[Run, Ending]],
+        swept: Sequence[str],
         *,
-        swept: Sequence[str] = (),
         about: dict[str, Any] | None = None,
         missing: int = 0,
         function: Callable[..., Any] | None = None,
         setting: Setting | None = None,
     ) -> None:
-        super().__init__(rows, columns)
-        self.swept, self.about, self.missing = list(swept), about or {}, missing
-        self.function, self.setting = function, setting
-        self.found: Smallest | None = None
-
-    @classmethod
-    def of(cls, endings: Iterable[tuple[Run, Ending]], swept: Sequence[str], **more: Any) -> Results:
         """The table of what came of some runs; `swept` names the inputs that are columns."""
         done = sorted(endings, key=lambda each: each[0].number)
-        values = list(dict.fromkeys(name for _, ending in done for name in ending.values))
-        rows = [_row(run, ending, swept, values) for run, ending in done]
-        return cls(rows, [*FIRST, *swept, "outcome", *values, *LAST], swept=swept, **more)
+        self.runs = {run.number: run for run, _ in done}
+        self.swept, self.about, self.missing = list(swept), about or {}, missing
+        self.function, self.setting = function, setting
+        self._returned = list(dict.fromkeys(name for _, ending in done for name in ending.values))
+        rows = [self.row_of(run, ending) for run, ending in done]
+        super().__init__(rows, [*FIRST, *swept, "outcome", *self._returned, *LAST])
 
     def where(self, **values: Any) -> Results:
         """The rows in which columns have these values: `results.where(gain=2.0)`."""
@@ -90,34 +86,18 @@ class Results(Table):
         return self._with(row for row in self.rows if row["outcome"] != OK)
 
     def _with(self, rows: Iterable[dict[str, Any]]) -> Results:
-        return Results(
-            rows, self.columns, swept=self.swept, about=self.about, function=self.function, setting=self.setting
-        )
-
-    @cached_property
-    def runs(self) -> dict[int, Run]:
-        """The run of each row, by its number."""
-        found = {}
-        for row in self.rows:
-            options = self.about.get("world", {}) | {name: row[name] for name in self.swept if name in OPTIONS}
-            parameters = {name: row[name] for name in self.swept if name not in OPTIONS}
-            found[row["run"]] = Run(row["run"], row["seed"], parameters, **options)
-        return found
-
-    @property
-    def returned(self) -> list[str]:
-        """The names of the columns that the function returned."""
-        others = {*FIRST, *self.swept, "outcome", *LAST}
-        return [name for name in self.columns if name not in others]
+        part = copy(self)
+        part.rows, part.missing, part.smallest = list(rows), 0, None
+        return part
 
     def row_of(self, run: Run, ending: Ending) -> dict[str, Any]:
         """The row that this table would have for what came of a run."""
-        return _row(run, ending, self.swept, list(dict.fromkeys([*self.returned, *ending.values])))
-
-    def ending_of(self, row: dict[str, Any]) -> Ending:
-        """What came of the run that a row is of."""
-        values = {name: row[name] for name in self.returned if row["outcome"] == OK}
-        return Ending(row["outcome"], values, row["robot_time"], *(row[name] or "" for name in LAST[1:]))
+        row: dict[str, Any] = {"run": run.number, "seed": run.seed}
+        row |= {name: run.value_of(name) for name in self.swept}
+        row["outcome"] = ending.outcome
+        row |= {name: ending.values.get(name) for name in dict.fromkeys([*self._returned, *ending.values])}
+        row["robot_time"] = ending.robot_time
+        return row | {name: getattr(ending, name) or None for name in LAST[1:]}
 
     @property
     def summary(self) -> str:
@@ -126,41 +106,22 @@ class Results(Table):
         said = f"{len(failed)} failed: {enumerated(failed)}" if failed else "none failed"
         return f"{count(len(self), 'run')}, {said}" + (f"; {self.missing} not carried out" if self.missing else "")
 
-    @property
-    def smallest(self) -> dict[str, Any] | None:
-        """What `until="failure"` has found: the values that differ from the first ones in the smallest change that still fails.
-
-        None where nothing failed, or nothing was looked for.
-        """
-        return None if self.found is None else self.found.change
-
-    def replay(self, number: int | str | None = None, function: Callable[..., Any] | None = None) -> Replay:
+    def replay(self, number: int | None = None, function: Callable[..., Any] | None = None) -> Replay:
         """Open a run in this notebook, as it was, to go on step by step: the first one that failed, unless told.
 
-        "smallest" is the run with the smallest change that `until="failure"` has found. A table that was read from a file does
-        not hold the function: it must be given. Raises ExperimentError where there is no such run.
+        `function` is called instead, as it is now. Raises ExperimentError where there is no such run.
         """
         from .replay import replay_of
 
         return replay_of(self, number, function)
 
     def save(self, path: str | Path) -> Path:
-        """Write the table to a file, "runs.csv" or "runs.parquet", with versions and settings; `experiment(resume=…)` reads it.
+        """Write the table to a file such as "runs.csv", with versions and settings.
 
-        In a CSV file these are the lines at its beginning that start with "#": `pandas.read_csv(path, comment="#")` passes
-        over them. Raises ExperimentError for another kind of file.
+        These are the lines at its beginning that start with "#": `pandas.read_csv(path, comment="#")` passes over them.
+        Raises ExperimentError for another kind of file.
         """
         return save(self, self.about | {"swept": self.swept, "missing": self.missing}, Path(path))
-
-    @staticmethod
-    def read(path: str | Path) -> Results:
-        """The table of a file that `save` has written. Raises ExperimentError where it is none."""
-        table, about = read(Path(path))
-        try:
-            swept, missing = about.pop("swept"), about.pop("missing")
-        except KeyError:
-            raise ExperimentError(f"{path} is no table of an experiment") from None
-        return Results(table.rows, table.columns, swept=swept, about=about, missing=missing)
 
     def plot(self, column: str, by: str | None = None) -> Picture:
         """A dot for each run, with quartiles and median; `by` names a column whose values are drawn side by side."""
@@ -242,15 +203,6 @@ def wilson(good: int, amount: int) -> tuple[float, float]:
     return (0.0 if good == 0 else middle - half), (1.0 if good == amount else middle + half)
 
 
-def _row(run: Run, ending: Ending, swept: Sequence[str], values: Sequence[str]) -> dict[str, Any]:
-    row: dict[str, Any] = {"run": run.number, "seed": run.seed}
-    row |= {name: run.value_of(name) for name in swept}
-    row["outcome"] = ending.outcome
-    row |= {name: ending.values.get(name) for name in values}
-    row["robot_time"] = ending.robot_time
-    return row | {name: getattr(ending, name) or None for name in LAST[1:]}
-
-
 def described(function: Callable[..., Any], setting: Setting, world: dict[str, Any]) -> dict[str, Any]:
     """What is saved with the rows of an experiment; `world` is what all of its runs have in common."""
     return {
@@ -263,30 +215,6 @@ def described(function: Callable[..., Any], setting: Setting, world: dict[str, A
         "robot_time": float(setting.robot_time),
         "world": world,
     }
-
-
-def rows_of(
-    path: str | Path, runs: Sequence[Run], swept: Sequence[str], mine: dict[str, Any]
-) -> list[tuple[Run, Ending]]:
-    """What came of those runs that a saved table has. Runs whose process was ended are not among them: they are tried again.
-
-    Raises ExperimentError, which says what differs, where the table is of another experiment.
-    """
-    table = Results.read(path)
-    theirs = table.about
-    if table.swept != list(swept):
-        raise ExperimentError(
-            f"{path} cannot be resumed: it sweeps {listed(table.swept) or 'nothing'}, and this experiment "
-            f"{listed(list(swept)) or 'nothing'}"
-        )
-    for name in ("turtle_lesson", "function", "folders", "simulator", "robot_time", "world"):
-        if theirs.get(name) != mine[name]:
-            raise ExperimentError(
-                f"{path} cannot be resumed: its {name} is {theirs.get(name)!r}, and that of this experiment {mine[name]!r}"
-            )
-    rows = {repr((row["seed"], *(row[name] for name in swept))): row for row in table.rows}
-    found = [(run, rows.get(repr((run.seed, *(run.value_of(name) for name in swept))))) for run in runs]
-    return [(run, table.ending_of(row)) for run, row in found if row and row["outcome"] not in (CPU_TIME, DIED)]
 
 
 # -- the picture ---------------------------------------------------------------------------------------------------------

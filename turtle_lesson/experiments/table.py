@@ -1,4 +1,4 @@
-"""A table: rows as dicts, columns as arrays; what print and a notebook show; CSV and Parquet files of it."""
+"""A table: rows as dicts, columns as arrays; what print and a notebook show; a CSV file of it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import html
 import io
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +14,7 @@ import numpy as np
 
 from ..lab.words import did_you_mean, enumerated, shortened
 from ..ros.runtime import files
-from .one_run import ExperimentError, plain
+from .one_run import ExperimentError
 
 MOST_ROWS = 20
 """Rows that are shown."""
@@ -108,95 +107,20 @@ def text_of(value: Any) -> str:
 
 # -- files ---------------------------------------------------------------------------------------------------------------
 
-KEY = b"turtle_lesson"
-"""What a Parquet file's metadata calls ours."""
-
 
 def save(table: Table, head: dict[str, Any], path: Path) -> Path:
-    """Write a table to a CSV or Parquet file; `head` is what else is known of it, by name, as JSON can hold it."""
+    """Write a table to a CSV file, below lines that begin with "#": what else is known of it, as JSON."""
     check_suffix(path)
-    kinds = {column: _kind([row[column] for row in table.rows]) for column in table.columns}
-    head = head | {"columns": kinds}
-    cells = [{name: _cell(row[name], kind) for name, kind in kinds.items()} for row in table.rows]
-    if path.suffix.lower() == ".csv":
-        text = io.StringIO(newline="")
-        text.writelines(f"# {name}: {json.dumps(value)}\n" for name, value in head.items())
-        writer = csv.DictWriter(text, list(kinds), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(cells)
-        files.write(path, text.getvalue())
-    else:
-        arrow, parquet = _pyarrow()
-        types = {"int": arrow.int64(), "float": arrow.float64(), "bool": arrow.bool_()}
-        fields = [(name, types.get(kind, arrow.string())) for name, kind in kinds.items()]
-        schema = arrow.schema(fields, metadata={KEY: json.dumps(head)})
-        parquet.write_table(arrow.Table.from_pylist(cells, schema=schema), path)
+    text = io.StringIO(newline="")
+    text.writelines(f"# {name}: {json.dumps(value)}\n" for name, value in head.items())
+    writer = csv.DictWriter(text, table.columns, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(table.rows)
+    files.write(path, text.getvalue())
     return path
 
 
 def check_suffix(path: Path) -> None:
     """Raise ExperimentError for a file that no table is saved in."""
-    if path.suffix.lower() not in (".csv", ".parquet"):
-        raise ExperimentError(f'a table is saved as "….csv" or "….parquet", got {str(path)!r}')
-
-
-def read(path: Path) -> tuple[Table, dict[str, Any]]:
-    """Read a table from a CSV or Parquet file, and what else was saved with it."""
-    try:
-        if path.suffix.lower() == ".parquet":
-            arrow = _pyarrow()[1].read_table(path)
-            head, cells = json.loads((arrow.schema.metadata or {})[KEY]), arrow.to_pylist()
-        else:
-            head, cells = _from_csv(path)
-        kinds = head.pop("columns")
-        return Table(
-            [{name: _value(row[name], kind) for name, kind in kinds.items()} for row in cells], list(kinds)
-        ), head
-    except FileNotFoundError:
-        raise ExperimentError(f"there is no file {path}") from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ExperimentError(f"{path} is no table that results.save() has written ({error})") from None
-
-
-def _from_csv(path: Path) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    lines = path.read_text(encoding="utf-8").split("\n")
-    about = list(takewhile(lambda line: line.startswith("# "), lines))
-    head = {name: json.loads(value) for name, _, value in (line[2:].partition(": ") for line in about)}
-    return head, list(csv.DictReader(line + "\n" for line in lines[len(about) :]))
-
-
-def _pyarrow() -> tuple[Any, Any]:
-    try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError:
-        raise ExperimentError("Parquet files need pyarrow, which is not installed here: save a .csv instead") from None
-    return pyarrow, parquet
-
-
-# A column of one type is written as it is. One that holds several types, tuples or texts that a CSV file would change is
-# written as JSON.
-
-
-def _kind(values: Sequence[Any]) -> str:
-    types = {type(value) for value in values if value is not None}
-    if types <= {str} and not any(value == "" or "\r" in value for value in values if value is not None):
-        return "text"
-    if types == {int} and all(value is None or abs(value) < 2**63 for value in values):
-        return "int"
-    return "float" if types == {float} else "bool" if types == {bool} else "json"
-
-
-def _cell(value: Any, kind: str) -> Any:
-    return value if value is None or kind != "json" else json.dumps(value)
-
-
-def _value(cell: Any, kind: str) -> Any:
-    """The value of a cell, which is a text if it comes from a CSV file."""
-    if cell is None or cell == "":
-        return None
-    if kind == "json":
-        return plain(json.loads(cell))
-    if not isinstance(cell, str) or kind == "text":
-        return cell
-    return int(cell) if kind == "int" else float(cell) if kind == "float" else cell == "True"
+    if path.suffix.lower() != ".csv":
+        raise ExperimentError(f'a table is saved as "….csv", got {str(path)!r}')
