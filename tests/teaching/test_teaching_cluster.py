@@ -17,14 +17,12 @@ from typing import Any
 import nbformat
 import pytest
 import teaching_copies as copies
-from distributed import KilledWorker
 
 from turtle_lesson import __version__
 from turtle_lesson.teaching import cluster
-from turtle_lesson.teaching.copies import Copy
 from turtle_lesson.teaching.main import main
 from turtle_lesson.teaching.pages import PageError
-from turtle_lesson.teaching.runner import Runner, Seen
+from turtle_lesson.teaching.runner import Runner
 
 PACKAGE = Path(cluster.__file__).resolve().parents[1]
 KILLS_ITS_WORKER = "import psutil\npsutil.Process().parents()[1].kill()"
@@ -165,17 +163,6 @@ def test_a_cluster_that_is_not_there_is_said(
     monkeypatch.setattr(cluster, "CONNECTING", 1)
     assert main(["grade", str(tmp_path / "copy.ipynb"), "--client", address]) == 1
     assert said in capsys.readouterr().err
-
-
-def test_a_copy_that_only_waited_on_workers_that_died_is_sent_again() -> None:
-    copy, begun = Copy(Path("copy.ipynb")), [0]
-    run = cluster._Run.__new__(cluster._Run)  # without a cluster
-    run._copies, run._waiting, run._times = [copy], [], [1]
-    run._starts = [SimpleNamespace(get=lambda timeout: begun[0])]
-    killed = SimpleNamespace(status="error", exception=lambda timeout: KilledWorker("key", Any, 3))
-    assert run._outcome(killed, 0) is None and run._waiting == [(0, copy)]
-    begun[0] = cluster.STARTS
-    assert run._outcome(killed, 0) == Seen(cluster.DIED)
 
 
 def test_without_dask_it_is_said_how_to_install_it(

@@ -16,7 +16,6 @@ from typing import Any
 
 import nbformat
 
-from ..lab import progress
 from ..learner.story import PAGES, PUBLISHED
 from ..ros.runtime import files
 
@@ -30,9 +29,6 @@ FOLDER = "my-lesson"
 MEMORY = ".turtle_lesson_pages.json"
 NAMES = tuple(f"{page}.ipynb" for page in (*PAGES, "lab"))
 """The files that a learner gets."""
-
-NOT_TAKEN = ("build", "install", "log")
-"""What a build makes anew in a workspace."""
 
 
 class PageError(Exception):
@@ -216,8 +212,12 @@ class LearnersFolder:
             if content is None:
                 continue
             newer = clear(parse(content, Path(name)))
-            newest = version(newer)
-            if not self._put(name, newer, newest) and self._versions.get(name) != newest:
+            newest, mine, made_from = version(newer), version_of(self.path / name), self._versions.get(name)
+            if mine in (newest, made_from) or not (self.path / name).exists():
+                if mine != newest:
+                    nbformat.write(newer, self.path / name)
+                self._versions[name] = newest
+            elif made_from != newest:
                 beside = unused(self.path / name, "new")
                 nbformat.write(newer, beside)
                 self._versions[name] = newest
@@ -233,17 +233,6 @@ class LearnersFolder:
             )
         return said
 
-    def _put(self, name: str, page: nbformat.NotebookNode, made_from: str) -> bool:
-        """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
-        path = self.path / name
-        mine = version_of(path)
-        if mine != version(page):
-            if path.exists() and mine != self._versions.get(name):
-                return False
-            nbformat.write(page, path)
-        self._versions[name] = made_from
-        return True
-
     def reset(self, path: Path, published: bytes) -> Path | None:
         """Put a page back as it was published, without outputs; returns where the learner's copy is kept, if it differs."""
         page = clear(parse(published, path))
@@ -251,48 +240,10 @@ class LearnersFolder:
         self._remember()
         return reset(path, nbformat.writes(page) + "\n")
 
-    def take_along(self) -> list[str]:
-        """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.
-
-        What is here already stays. Returns sentences about what was done.
-        """
-        said = []
-        for name in begun():
-            page, path = clear(read(PUBLISHED / name)), self.path / name
-            if not self._put(name, page, self._versions.get(name, "")):
-                path = unused(path, "mine")
-                nbformat.write(page, path)
-            said.append(f"{name} was copied" + (f", as {path.name}." if path.name != name else "."))
-        self._remember()
-        theirs, mine = PUBLISHED / "workspace", self.path / "workspace"
-        if theirs.is_dir() and mine.exists():
-            said.append(f"There is a workspace in {self.path} already: {theirs} was not copied.")
-        elif theirs.is_dir():
-            shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns(*NOT_TAKEN))
-            said.append("The workspace was copied without its build: build it again.")
-        points = progress.ProgressFile(PUBLISHED / progress.FILE).points()
-        if points:
-            progress.ProgressFile(self.path / progress.FILE).keep(points)
-            said.append(f"{sum(points.values())} points were copied.")
-        return said or [f"No page was begun in {PUBLISHED}."]
-
 
 def is_learners(path: Path) -> bool:
     """Whether this is a learner's folder already."""
     return (path / MEMORY).is_file()
-
-
-def begun() -> list[str]:
-    """The pages in the checkout's `notebooks` that differ from what its version control holds."""
-    found = []
-    for name in NAMES:
-        committed = find_published(name)
-        mine = PUBLISHED / name
-        if committed is not None and mine.is_file() and mine.read_bytes() != committed:
-            original = clear(parse(committed, mine))
-            if version(clear(read(mine))) != version(original):
-                found.append(name)
-    return found
 
 
 def version(notebook: nbformat.NotebookNode) -> str:

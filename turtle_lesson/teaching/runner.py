@@ -16,13 +16,13 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Event, Thread
-from typing import Any, Protocol
+from typing import Any
 
 from ..lab.checks.results import BAD, GOOD
 from .copies import LARGEST, Copy, end_all, environment, is_too_full, real_time, take_fonts
@@ -56,18 +56,12 @@ class Seen:
     """Files of the installed lesson that are not as they were before."""
 
 
-class Stopped(Protocol):
-    """What says whether copies are to be ended that still run."""
-
-    def is_set(self) -> bool: ...
-
-
 def run_here(copies: Sequence[Copy], timeout: float, memory: float, jobs: int) -> Generator[tuple[int, Seen]]:
     """Run copies on this machine, `jobs` at once; gives the number of each that is done, and what was seen of it."""
     stopped = Event()
     runner = Runner(timeout, memory)
     with ThreadPoolExecutor(max_workers=jobs) as pool:
-        numbers = {pool.submit(_run, runner, copy, stopped): number for number, copy in enumerate(copies)}
+        numbers = {pool.submit(_run, runner, copy, stopped.is_set): number for number, copy in enumerate(copies)}
         try:
             for future in as_completed(numbers):
                 yield numbers[future], future.result()
@@ -77,7 +71,7 @@ def run_here(copies: Sequence[Copy], timeout: float, memory: float, jobs: int) -
             raise
 
 
-def _run(runner: Runner, copy: Copy, stopped: Stopped) -> Seen:
+def _run(runner: Runner, copy: Copy, stopped: Callable[[], bool]) -> Seen:
     try:
         return runner.run(copy.content(), stopped)
     except PageError as error:
@@ -112,8 +106,8 @@ class Runner:
         self._timeout, self._memory = timeout, memory
         self._sent = marshal.dumps(checking_code())
 
-    def run(self, content: bytes, stopped: Stopped) -> Seen:
-        """Run a notebook in a folder of its own that is thrown away, until its end or until this is set."""
+    def run(self, content: bytes, stopped: Callable[[], bool]) -> Seen:
+        """Run a notebook in a folder of its own that is thrown away, until its end or until it is to be stopped."""
         seen = Seen()
         try:
             with tempfile.TemporaryDirectory(prefix="turtle-lesson-", ignore_cleanup_errors=True) as folder:
@@ -124,7 +118,7 @@ class Runner:
         seen.changed = sorted({name for name, _ in self.installed.items() ^ installed().items()})
         return seen
 
-    def _run(self, content: bytes, folder: Path, stopped: Stopped) -> Iterator[dict[str, Any]]:
+    def _run(self, content: bytes, folder: Path, stopped: Callable[[], bool]) -> Iterator[dict[str, Any]]:
         """What the worker says while it runs a copy. Afterwards nothing that the copy has started runs any longer."""
         home, desk, mark = folder / "home", folder / "desk", secrets.token_hex(8)
         home.mkdir()
@@ -170,11 +164,11 @@ class Runner:
                 process.wait()
                 reader.join()
 
-    def _heard(self, lines: Queue[bytes], folder: Path, stopped: Stopped) -> Iterator[dict[str, Any]]:
+    def _heard(self, lines: Queue[bytes], folder: Path, stopped: Callable[[], bool]) -> Iterator[dict[str, Any]]:
         """What comes, until the end, or until too much time is over or too much is written."""
         seconds = real_time(self._timeout) + GRACE
         end = time.monotonic() + seconds
-        while time.monotonic() < end and not stopped.is_set():
+        while time.monotonic() < end and not stopped():
             try:
                 line = lines.get(timeout=0.5)
             except Empty:
