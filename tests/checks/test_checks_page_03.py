@@ -16,6 +16,7 @@ from turtle_lesson.lab.checks.probe import Probe
 from turtle_lesson.lab.checks.registry import Expectation
 from turtle_lesson.lab.checks.results import CannotLook, CheckResult
 from turtle_lesson.learner.workspace import workspace
+from turtle_lesson.session.check_target import CheckTarget
 
 # isort: split
 # Importing turtle_lesson made these importable.
@@ -103,7 +104,7 @@ class Looking(Probe):
     """A probe of a fresh world."""
 
     def __init__(self, lesson: Lesson) -> None:
-        super().__init__(lesson._make_check_target(), limit=10)
+        super().__init__(CheckTarget(lesson._world, lesson._recording, lesson._board), limit=10)
 
 
 @pytest.fixture

@@ -42,8 +42,7 @@ def test_columns_are_arrays_in_which_nothing_is_nan() -> None:
     assert (results["outcome"] == "ok").sum() == len(results.ok) == 6
     with pytest.raises(ExperimentError, match="there is no column 'secnds'"):
         results["secnds"]
-    frame = results.table
-    assert isinstance(frame, pandas.DataFrame)
+    frame = pandas.DataFrame(results.rows)
     assert frame.groupby("gain").seconds.max().tolist() == [6.0, 5.0]
 
 

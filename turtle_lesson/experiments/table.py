@@ -55,15 +55,6 @@ class Table:
         return array
 
     @property
-    def table(self) -> Any:
-        """All of it as a `pandas.DataFrame`, or as a list of rows where pandas is not installed."""
-        try:
-            import pandas
-        except ImportError:
-            return self.rows
-        return pandas.DataFrame(self.rows, columns=self.columns)
-
-    @property
     def summary(self) -> str:
         """A sentence below the rows."""
         return ""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class CheckTarget:
-    """A `Target` of checks (see lab/checks/probe.py).
+    """What a `Probe` of a check (see lab/checks/probe.py) looks at.
 
     A node that was made in a cell is only alive while that cell spins it. While a check looks, such nodes are spun; what
     their callbacks raise is kept in `errors`, and they go on.

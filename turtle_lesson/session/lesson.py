@@ -18,7 +18,7 @@ from ..ros.idl.registry import registry
 from ..ros.rmw.network import Conditions, set_conditions
 from ..ros.runtime import files
 from ..ros.runtime.files import CellOutput
-from ..ros.runtime.world import World, open_world, set_player, wall_time
+from ..ros.runtime.world import World, open_world, set_player
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
 from ..ros.tools import demo_packages, program, tf2_packages
@@ -27,13 +27,12 @@ from .robot import real_ros
 from .views import Inspection
 
 if TYPE_CHECKING:
-    from ..lab.recorder import ObstacleBoard, Recorder
+    from ..lab.recorder import Recorder
     from ..lab.widgets.backend import Backend
     from ..ros.ament.source import Exported
     from ..ros.bags.recorder import Recording
     from ..ros.launching import LaunchHandle
     from ..turtlesim.obstacles import Obstacle
-    from .check_target import CheckTarget
 
 
 START_ORDERS = ("as written", "shuffled")
@@ -326,18 +325,6 @@ class Lesson(Inspection):
                 "it hears. Run the cell with lesson = start(…) once more"
             )
         return self._recorder
-
-    @cached_property
-    def _board(self) -> ObstacleBoard:
-        from ..lab.recorder import ObstacleBoard
-
-        # not by the node's clock: in a simulated world a look at that takes time
-        return ObstacleBoard(self._recording, lambda: wall_time(self._world))
-
-    def _make_check_target(self) -> CheckTarget:
-        from .check_target import CheckTarget
-
-        return CheckTarget(self._world, self._recording, self._board)
 
     @cached_property
     def _backend(self) -> Backend:

@@ -43,7 +43,7 @@ class _SourcedBefore(list[Path]):
 
 
 class TroubleEnvironment:
-    """An `Environment` (see lab/troubles/cases.py) in a world of this notebook.
+    """What a trouble (see lab/troubles/cases.py) is put into: a world of this notebook.
 
     Where the learner's own package is sourced when the first case is opened, the cases are about that one. Its files are
     only read: what is to be broken in files is broken in a copy, which goes with the next case and with the world.

@@ -18,18 +18,18 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..learner.story import FINISHED
 from ..ros.runtime.files import home
+from ..ros.runtime.world import wall_time
 from ..ros.sim.errors import format_error
 from ..ros.sim.simulation import NANOSECONDS
 
 if TYPE_CHECKING:
-    from ..lab.checks.probe import Target
     from ..lab.checks.results import CheckResult
     from ..lab.drawing import Picture
     from ..lab.graph import GraphPicture
     from ..lab.predictions import Outcome, Question
     from ..lab.progress import Progress, ProgressFile
     from ..lab.prompts import Prompt
-    from ..lab.recorder import Recorder
+    from ..lab.recorder import ObstacleBoard, Recorder
     from ..lab.troubles.cases import Case
     from ..lab.widgets.backend import Backend
     from ..lab.widgets.dashboard import Dashboard
@@ -153,8 +153,12 @@ class Inspection(Views):
 
     _world: World
 
-    def _make_check_target(self) -> Target:
-        raise NotImplementedError
+    @cached_property
+    def _board(self) -> ObstacleBoard:
+        from ..lab.recorder import ObstacleBoard
+
+        # not by the node's clock: in a simulated world a look at that takes time
+        return ObstacleBoard(self._recording, lambda: wall_time(self._world))
 
     @property
     def _trace(self) -> Trace:
@@ -171,10 +175,11 @@ class Inspection(Views):
         Raises ValueError for a name that no check has.
         """
         from ..lab.checks.registry import find, run
+        from .check_target import CheckTarget
 
         wanted = find(name)
         with _quiet():
-            result = run(wanted, self._make_check_target())
+            result = run(wanted, CheckTarget(self._world, self._recording, self._board))
         failures = progress_file().note(result)
         so_far = self.progress().so_far(result.page)
         return dataclasses.replace(result, failures=failures, so_far=so_far)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-import subprocess
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -19,8 +18,6 @@ import nbformat
 from ..learner.story import PAGES, PUBLISHED
 from ..ros.runtime import files
 
-CHECKOUT = PUBLISHED.parent
-"""Where the project lies, if it was installed from its checkout (as README says)."""
 SOLUTION = "solution"
 """Tag of the cells that hold a solution."""
 
@@ -100,60 +97,21 @@ def unused(path: Path, word: str) -> Path:
 
 
 def published(path: Path, source: Path | None = None) -> bytes:
-    """The published page that a copy is of.
-
-    Published is what lies in `source`; without one, what the checkout's version control holds, or else what was installed.
-    Raises PageError where it is found in neither.
-    """
+    """The published page that a copy is of: what lies in `source`, or else what was installed. Raises PageError."""
     if path.suffix != ".ipynb":
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
-    name = _published_name(path)
-    content = find_published(name, source)
-    if content is None and source is not None:
-        raise PageError(f"there is no {name} in {source}")
-    if content is None:
-        raise PageError(
-            f"the published {name} is not here (it would be in {PUBLISHED}). Name a folder of published pages: "
-            "--from FOLDER"
-        )
-    if source is None and (PUBLISHED / name).resolve() == path.resolve() and _from_git(name) is None:
-        raise PageError(
-            f"{name} is the published page itself, and the checkout has no version control that could restore it. "
-            "Download the lesson again, and name its folder of notebooks: --from FOLDER"
-        )
-    return content
-
-
-def find_published(name: str, source: Path | None = None) -> bytes | None:
-    """The published page of a name; None if there is none."""
-    committed = _from_git(name) if source is None else None
-    if committed is not None:
-        return committed
+    name = path.name
+    if not (PUBLISHED / name).is_file():  # it was renamed
+        metadata = None
+        with suppress(PageError):  # damaged: all the more reason to reset it
+            metadata = read(path).metadata
+        page = page_of(path, metadata)
+        name = f"{page}.ipynb" if page else name
     file = (source or PUBLISHED) / name
-    return file.read_bytes() if file.is_file() else None
-
-
-def _published_name(path: Path) -> str:
-    """The page's own file name: that of the copy, or of the page whose name is a part of it."""
-    if (PUBLISHED / path.name).is_file():
-        return path.name
-    try:
-        page = page_of(path, read(path).metadata)
-    except PageError:  # damaged: all the more reason to reset it
-        page = page_of(path)
-    return f"{page}.ipynb" if page else path.name
-
-
-def _from_git(name: str) -> bytes | None:
-    """A page as the checkout's version control has it; None where there is no checkout, no git or no such page."""
-    if not (CHECKOUT / ".git").exists():
-        return None
-    command = ["git", "-C", str(CHECKOUT), "show", f"HEAD:notebooks/{name}"]
-    try:
-        done = subprocess.run(command, capture_output=True, timeout=30, check=False)
-    except (OSError, subprocess.TimeoutExpired):
-        return None
-    return done.stdout if done.returncode == 0 else None
+    if not file.is_file() or file.resolve() == path.resolve():
+        what = "is the published page itself" if file.is_file() else f"is not here (it would be in {file.parent})"
+        raise PageError(f"the published {name} {what}. Name a folder of published pages: --from FOLDER")
+    return file.read_bytes()
 
 
 def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
@@ -208,10 +166,10 @@ class LearnersFolder:
         """
         said = []
         for name in NAMES:
-            content = find_published(name, source)
-            if content is None:
+            file = (source or PUBLISHED) / name
+            if not file.is_file():
                 continue
-            newer = clear(parse(content, Path(name)))
+            newer = clear(read(file))
             newest, mine, made_from = version(newer), version_of(self.path / name), self._versions.get(name)
             if mine in (newest, made_from) or not (self.path / name).exists():
                 if mine != newest:

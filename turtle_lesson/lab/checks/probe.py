@@ -8,24 +8,23 @@ from __future__ import annotations
 
 import importlib
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, suppress
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import reduce, wraps
 from operator import attrgetter
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rcl_interfaces.msg import Log
 from rclpy.client import Client
-from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
 from ..graph import node_names, of_node, others, owner, servers
-from ..recorder import ObstacleBoard, with_time
-from ..recording import NANOSECONDS, Recording
+from ..recorder import with_time
+from ..recording import NANOSECONDS
 from ..words import listed, number
 from .results import ENDLESS, CannotLook, OutOfTime, Stopped, in_words, never_returned, unreturned
 
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
     from rclpy.publisher import Publisher
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-    from ...ros.sim.strand import Strand
+    from ...session.check_target import CheckTarget
     from ...turtlesim.obstacles import Box, Circle
 
 T = TypeVar("T")
@@ -52,42 +51,6 @@ SLACK = 2.0
 
 MOST_HEARD = 500_000
 """Messages of one topic that are kept at most."""
-
-
-class Target(Protocol):
-    """The system that is observed; `session/check_target.py` says what each method does."""
-
-    node: Node
-    """A node with a hidden name, spun while time passes."""
-    board: ObstacleBoard
-    """The obstacles in the world, and their publisher."""
-
-    @property
-    def recording(self) -> Recording:
-        """What was heard of the turtle so far."""
-
-    @property
-    def now(self) -> float: ...
-    @property
-    def ended(self) -> bool: ...
-    @property
-    def errors(self) -> list[tuple[str, Exception]]: ...
-    @property
-    def strands(self) -> list[Strand]: ...
-    @property
-    def commands(self) -> list[list[str]]: ...
-    def limit_work(self, seconds: float | None) -> None: ...
-    def runs(self, program: str) -> bool: ...
-    def published(self, topic: str, by: str) -> int: ...
-    def call(self, function: Callable[..., Any], *arguments: Any) -> Any: ...
-    def launched(
-        self, package: str, file_name: str, namespace: str, renamed: Mapping[str, str], arguments: Mapping[str, object]
-    ) -> AbstractContextManager[None]: ...
-    def ending_programs(self) -> AbstractContextManager[None]: ...
-    def network(
-        self, topic: str, latency: float | None = None, loss: float | None = None
-    ) -> AbstractContextManager[None]: ...
-    def step(self, seconds: float) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +127,7 @@ class Probe:
     It sees the graph as any node does; its own endpoints are left out.
     """
 
-    def __init__(self, target: Target, limit: float) -> None:
+    def __init__(self, target: CheckTarget, limit: float) -> None:
         self.target = target
         self.node = target.node
         self.began = target.now

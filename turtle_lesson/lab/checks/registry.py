@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import wraps
 from inspect import signature
-from typing import Concatenate, ParamSpec
+from typing import TYPE_CHECKING, Concatenate, ParamSpec
 
 from ...learner.story import PAGES
 from ...ros.sim.errors import learners_frames
 from ..words import did_you_mean, enumerated
-from .probe import Probe, Target
+from .probe import Probe
 from .results import (
     BAD,
     GOOD,
@@ -29,6 +29,9 @@ from .results import (
     in_words,
     row_of,
 )
+
+if TYPE_CHECKING:
+    from ...session.check_target import CheckTarget
 
 MODULES = (
     "pages_00_02",
@@ -139,7 +142,7 @@ def find(name: object) -> Check:
 ODD = "Run the cells from the set-up cell on again; if it stays, compare your interfaces and types with the page's."
 
 
-def run(check: Check, target: Target) -> CheckResult:
+def run(check: Check, target: CheckTarget) -> CheckResult:
     """Look at everything that a check expects of the system at `target`."""
     began = target.now
     if target.ended:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from random import Random
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from ...ros.idl.names import nearest
 from ..checks.probe import Probe
 from ..checks.registry import Expectation, expectation
 from ..checks.results import CannotLook, CheckResult, Seen
 from . import faults
-from .faults import Fault, Program
+from .faults import Fault
+
+if TYPE_CHECKING:
+    from ...session.trouble_environment import TroubleEnvironment
 
 
 @dataclass(frozen=True)
@@ -23,28 +26,15 @@ class Trouble:
         name: by which `lesson.trouble(name=…)` asks for it.
         report: what a user says.
         hints: where to look first, then with what.
-        commands: those that show what is wrong, from outside.
-        choose: chooses a fault by chance.
+        faults: what it may come from; names and numbers in it are drawn by chance.
         expectations: what is so in a well system.
     """
 
     name: str
     report: str
     hints: tuple[str, str]
-    commands: tuple[str, ...]
-    choose: Callable[[Random], Fault]
+    faults: Callable[[Random], Sequence[Fault]]
     expectations: Callable[[], list[Expectation]]
-
-
-class Environment(Protocol):
-    """The world that a trouble is put into; `session/trouble_environment.py` says what each method does."""
-
-    @property
-    def ended(self) -> bool: ...
-    def clear(self) -> None: ...
-    def start(self, programs: tuple[Program, ...]) -> None: ...
-    def stop_simulator(self) -> None: ...
-    def make_workspace(self, fault: str) -> None: ...
 
 
 # The troubles: four of the lesson, and bugs that were found in published teaching code.
@@ -57,8 +47,6 @@ TROUBLES: dict[str, Trouble] = {
             "find robot_controller/msg/TurtleStatus.",
             ("A message type is only a text at first. What has to happen before a program can use it?",
              "Go through the three steps in order: CMakeLists.txt, colcon build, source."),
-            ("ros2 interface show robot_controller/msg/TurtleStatus", "ros2 pkg list", "ls trouble_ws",
-             "cat trouble_ws/src/robot_controller/CMakeLists.txt"),
             faults.no_message,
             faults.message_rows,
         ),
@@ -67,7 +55,6 @@ TROUBLES: dict[str, Trouble] = {
             "I call /navigate_to, and no answer ever comes.",
             ("Some node has to offer the service, under this name, and its callback has to be called.",
              "ros2 service list, ros2 node info /navigator; then lesson.plot_sequence() after a call."),
-            ("ros2 node list", "ros2 service list", "ros2 node info /navigator", 'lesson.plot_timeline("/navigator")'),
             faults.no_answer,
             lambda: faults.drives((8.0, 5.5), (5.5, 5.5)),
         ),
@@ -76,8 +63,6 @@ TROUBLES: dict[str, Trouble] = {
             "The dashboard stays empty, or moves in jerks. It needs ten messages a second on /robot/status.",
             ("A topic needs a publisher, the right name, and the right rate.",
              "ros2 topic list, ros2 topic info /robot/status, ros2 topic hz /robot/status."),
-            ("ros2 node list", "ros2 topic list", "ros2 topic hz /robot/status", "ros2 node info /status_monitor",
-             "ros2 param get /status_monitor publish_rate"),
             faults.silent,
             faults.status_as_specified,
         ),
@@ -86,8 +71,6 @@ TROUBLES: dict[str, Trouble] = {
             "I send the turtle to a goal, and it hardly moves, or not at all. It never gets there.",
             ("Follow the commands from the navigator to the turtle: are they sent, on which topic, how large, how often?",
              "ros2 node list, ros2 topic info /turtle1/cmd_vel --verbose, ros2 topic echo /turtle1/cmd_vel during a call."),
-            ("ros2 node list", "ros2 topic info /turtle1/cmd_vel --verbose", "ros2 topic echo /turtle1/cmd_vel",
-             "ros2 node info /navigator", 'lesson.plot_timeline("/turtle1/cmd_vel")'),
             faults.stands,
             faults.motion_rows,
         ),
@@ -96,7 +79,6 @@ TROUBLES: dict[str, Trouble] = {
             "The laser sees a wall half a metre ahead, ros2 topic echo /obstacles shows it, and the alarm does not ring.",
             ("Both nodes run and use the same topic and type. What else must fit between two ends?",
              "ros2 topic info /obstacles --verbose shows the quality of service of each end. The log has a warning, too."),
-            ("ros2 topic info /obstacles --verbose", "ros2 param get /obstacle_alarm reliability", "ros2 topic hz /alarm"),
             faults.deaf,
             faults.alarm_rows,
         ),
@@ -105,7 +87,6 @@ TROUBLES: dict[str, Trouble] = {
             "ros2 topic list shows /robot/status, and my display gets nothing from it, or ros2 topic echo complains.",
             ("A name alone does not connect two ends.",
              "ros2 topic list -t, ros2 topic info /robot/status --verbose."),
-            ("ros2 topic list -t", "ros2 topic info /robot/status --verbose", "ros2 node list"),
             faults.typed_wrong,
             faults.status_as_specified,
         ),
@@ -114,7 +95,6 @@ TROUBLES: dict[str, Trouble] = {
             "The turtle goes to every goal in the east. Sent to the west, it turns and turns.",
             ("Which number jumps when the turtle looks due west?",
              "ros2 topic echo /turtle1/pose --field theta, while it turns; lesson.plot_path()."),
-            ("ros2 topic echo /turtle1/pose --field theta", "ros2 topic echo /turtle1/cmd_vel", "ros2 param list /navigator"),
             faults.goal_in_the_west,
             lambda: faults.drives((8.0, 5.5), (2.5, 5.5), (1.0, 5.4)),
         ),
@@ -123,8 +103,6 @@ TROUBLES: dict[str, Trouble] = {
             "The display for /robot/status flickers: twenty messages come a second, where ten are specified.",
             ("If messages come twice, there are two publishers, or one callback is called twice.",
              "ros2 topic hz /robot/status, ros2 topic info /robot/status --verbose, ros2 node list."),
-            ("ros2 topic hz /robot/status", "ros2 topic info /robot/status --verbose", "ros2 node list",
-             'lesson.plot_timeline("/status_monitor")'),
             faults.twice,
             faults.twice_rows,
         ),
@@ -133,8 +111,6 @@ TROUBLES: dict[str, Trouble] = {
             "The status comes ten times a second and says that the turtle is at (0, 0), wherever it is.",
             ("The monitor runs, but it does not know where the turtle is. Which topic should tell it?",
              "ros2 node info /status_monitor and ros2 topic info /turtle1/pose --verbose; its log warns, too."),
-            ("ros2 topic echo /robot/status --once", "ros2 node info /status_monitor",
-             "ros2 topic info /turtle1/pose --verbose"),
             faults.frozen,
             faults.status_as_specified,
         ),
@@ -184,25 +160,19 @@ class Case:
         return (*self._trouble.hints, self._fault.hint)[level - 1]
 
     @property
-    def commands(self) -> tuple[str, ...]:
-        """Commands that show what is wrong, whichever of the causes of this symptom it is."""
-        return self._trouble.commands
-
-    @property
-    def mended(self) -> bool:
-        """Whether a check finds the system well. Robot time goes by meanwhile."""
-        return self.check().passed
-
-    @property
     def cause(self) -> str:
         """What was wrong: told once the system is mended, which is looked at now."""
-        return self._fault.cause if self.mended else "It is not mended yet; case.check() says what is still wrong."
+        return (
+            self._fault.cause if self.check().passed else "It is not mended yet; case.check() says what is still wrong."
+        )
 
 
-_current: tuple[Case, Environment] | None = None
+_current: tuple[Case, TroubleEnvironment] | None = None
 
 
-def open_case(environment: Environment, seed: int | None, name: str | None, check: Callable[[], CheckResult]) -> Case:
+def open_case(
+    environment: TroubleEnvironment, seed: int | None, name: str | None, check: Callable[[], CheckResult]
+) -> Case:
     """What `Lesson.trouble` does in a world; `check` looks at the system and says whether it is mended.
 
     Raises ValueError for a name that does not exist, with the one that may be meant, and for a seed that is not a number.
@@ -213,7 +183,8 @@ def open_case(environment: Environment, seed: int | None, name: str | None, chec
         raise ValueError(f"a seed is a whole number, got {seed!r}: try lesson.trouble(1), or lesson.trouble(name=…)")
     chance = Random(f"trouble {number}")
     trouble = TROUBLES[chance.choice(sorted(TROUBLES))] if name is None else _named(name)
-    fault = trouble.choose(Random(f"{trouble.name} {number}"))
+    chance = Random(f"{trouble.name} {number}")
+    fault = chance.choice(trouble.faults(chance))
     environment.clear()
     if fault.workspace:
         environment.make_workspace(fault.workspace)

@@ -66,9 +66,9 @@ DRAFT = "robot_draft"
 OTHERS = (MONITOR, DETECTOR)
 
 
-def no_message(chance: Random) -> Fault:
+def no_message(chance: Random) -> list[Fault]:
     """A message that no program can use."""
-    faults = (
+    return [
         Fault(
             "TurtleStatus.msg was not named in CMakeLists.txt, so nothing was generated from it.",
             "Read trouble_ws/src/robot_controller/CMakeLists.txt: which files does rosidl_generate_interfaces name?",
@@ -84,8 +84,7 @@ def no_message(chance: Random) -> Fault:
             "All is built in trouble_ws/install. Has this terminal read its setup file?",
             workspace="not sourced",
         ),
-    )
-    return chance.choice(faults)
+    ]
 
 
 def message_rows() -> list[Expectation]:
@@ -98,10 +97,10 @@ def message_rows() -> list[Expectation]:
     ]
 
 
-def no_answer(chance: Random) -> Fault:
+def no_answer(chance: Random) -> list[Fault]:
     """A service that is never answered."""
     wrong = chance.choice(("/navigate", "/navigation/navigate_to", "/go_to", "/robot/navigate_to"))
-    faults = (
+    return [
         Fault("The navigator did not run.", "Compare ros2 node list with the nodes that should be there.", OTHERS),
         Fault(
             f"The navigator offered its service as {wrong}: it was started with a remapping.",
@@ -114,16 +113,15 @@ def no_answer(chance: Random) -> Fault:
             'lesson.plot_timeline("/navigator"): which callback never ends?',
             (Program("navigator_waiting", DRAFT, "navigator"), *OTHERS),
         ),
-    )
-    return chance.choice(faults)
+    ]
 
 
-def silent(chance: Random) -> Fault:
+def silent(chance: Random) -> list[Fault]:
     """A status that does not come, or too rarely."""
     wrong = chance.choice(("/status", "/robot_status", "/robot/state", "/turtle1/status"))
     rate = chance.choice((1, 2))
     rest = (NAVIGATOR, DETECTOR)
-    faults = (
+    return [
         Fault("The status monitor did not run.", "Compare ros2 node list with the nodes that should be there.", rest),
         Fault(
             f"The status monitor published on {wrong}: it was started with a remapping.",
@@ -135,16 +133,15 @@ def silent(chance: Random) -> Fault:
             "Messages come, but too rarely. ros2 param get /status_monitor publish_rate",
             (Program("status_monitor", parameters={"publish_rate": rate}), *rest),
         ),
-    )
-    return chance.choice(faults)
+    ]
 
 
-def stands(chance: Random) -> Fault:
+def stands(chance: Random) -> list[Fault]:
     """A turtle that gets nowhere."""
     wrong = chance.choice(("/cmd_vel", "/turtle/cmd_vel", "/turtle2/cmd_vel", "/turtle1/command"))
     speed = chance.choice((0.01, 0.02, 0.05))
     period = chance.choice((4.0, 5.0, 8.0))
-    faults = (
+    return [
         Fault(
             "The simulator did not run.",
             "Which node should obey /turtle1/cmd_vel, and is it there? ros2 node list",
@@ -167,8 +164,7 @@ def stands(chance: Random) -> Fault:
             "How often do commands come, and from which node? ros2 param dump /speed_limiter",
             (*_limited({"command_period": period}), *OTHERS),
         ),
-    )
-    return chance.choice(faults)
+    ]
 
 
 def _limited(parameters: dict[str, float]) -> tuple[Program, Program]:
@@ -187,15 +183,17 @@ def motion_rows() -> list[Expectation]:
     ]
 
 
-def deaf(chance: Random) -> Fault:
+def deaf(chance: Random) -> list[Fault]:
     """Two ends whose qualities of service do not fit."""
     alarm = Program("obstacle_alarm", DRAFT, parameters={"reliability": "reliable"})
     rest = chance.sample((NAVIGATOR, MONITOR), 2)
-    return Fault(
-        "The laser sends with best effort and the alarm asked for reliable delivery: such ends never connect.",
-        "ros2 param get /obstacle_alarm reliability. A laser offers best_effort; the alarm reads its parameter at start.",
-        (Program("laser", DRAFT), alarm, *rest),
-    )
+    return [
+        Fault(
+            "The laser sends with best effort and the alarm asked for reliable delivery: such ends never connect.",
+            "ros2 param get /obstacle_alarm reliability. A laser offers best_effort; the alarm reads its parameter at start.",
+            (Program("laser", DRAFT), alarm, *rest),
+        )
+    ]
 
 
 def alarm_rows() -> list[Expectation]:
@@ -208,33 +206,37 @@ def alarm_rows() -> list[Expectation]:
     return [there("/laser", laser), there("/obstacle_alarm", alarm), *ends, ringing]
 
 
-def typed_wrong(chance: Random) -> Fault:
+def typed_wrong(chance: Random) -> list[Fault]:
     """A topic of two types, or of the wrong one."""
     twin = chance.random() < 0.5
     name = chance.choice(("status_text", "battery", "reporter"))
     also = (
         (Program("status_text", DRAFT, name), MONITOR) if twin else (Program("status_text", DRAFT, "status_monitor"),)
     )
-    return Fault(
-        f"A node published /robot/status as std_msgs/msg/String, where {STATUS_TYPE} is specified.",
-        "ros2 topic info /robot/status --verbose: two ends of different types never connect.",
-        (*also, NAVIGATOR, DETECTOR),
-    )
+    return [
+        Fault(
+            f"A node published /robot/status as std_msgs/msg/String, where {STATUS_TYPE} is specified.",
+            "ros2 topic info /robot/status --verbose: two ends of different types never connect.",
+            (*also, NAVIGATOR, DETECTOR),
+        )
+    ]
 
 
-def goal_in_the_west(chance: Random) -> Fault:
+def goal_in_the_west(chance: Random) -> list[Fault]:
     """An angle difference that is not wrapped."""
-    return Fault(
-        "The navigator subtracted two angles and did not bring the difference into -180° to 180°: where the heading jumps "
-        "from 180° to -180°, it turned the long way round, forever.",
-        "Call it for a goal due west and look at lesson.plot_path(). ros2 param list /navigator",
-        (Program("navigator_draft", DRAFT, "navigator"), *chance.sample(OTHERS, 2)),
-    )
+    return [
+        Fault(
+            "The navigator subtracted two angles and did not bring the difference into -180° to 180°: where the heading jumps "
+            "from 180° to -180°, it turned the long way round, forever.",
+            "Call it for a goal due west and look at lesson.plot_path(). ros2 param list /navigator",
+            (Program("navigator_draft", DRAFT, "navigator"), *chance.sample(OTHERS, 2)),
+        )
+    ]
 
 
-def twice(chance: Random) -> Fault:
+def twice(chance: Random) -> list[Fault]:
     """Everything comes twice."""
-    faults = (
+    return [
         Fault(
             "The node made its timer twice, so each tick was two calls of its callback.",
             'lesson.plot_timeline("/status_monitor"): how often is the callback called?',
@@ -245,8 +247,7 @@ def twice(chance: Random) -> Fault:
             "ros2 node list warns of it. jobs, and the lines of the launch, tell what runs and its pid.",
             (MONITOR, NAVIGATOR, DETECTOR, MONITOR),
         ),
-    )
-    return chance.choice(faults)
+    ]
 
 
 def twice_rows() -> list[Expectation]:
@@ -254,14 +255,16 @@ def twice_rows() -> list[Expectation]:
     return [*status_as_specified(), battery_falls()]
 
 
-def frozen(chance: Random) -> Fault:
+def frozen(chance: Random) -> list[Fault]:
     """A monitor that hears nothing."""
     wrong = chance.choice(("/pose", "/turtle/pose", "/turtle2/pose", "/turtle1/position"))
-    return Fault(
-        f"The status monitor heard {wrong}, where no node publishes: it was started with a remapping.",
-        "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?",
-        (Program("status_monitor", remaps={"/turtle1/pose": wrong}), NAVIGATOR, DETECTOR),
-    )
+    return [
+        Fault(
+            f"The status monitor heard {wrong}, where no node publishes: it was started with a remapping.",
+            "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?",
+            (Program("status_monitor", remaps={"/turtle1/pose": wrong}), NAVIGATOR, DETECTOR),
+        )
+    ]
 
 
 # -- what a well system shows ------------------------------------------------------------------------------------------
