@@ -51,7 +51,7 @@ def drive(lesson: Any) -> dict[str, Any]:
 def measured(name: str, runs: int, folder: Path, **options: Any) -> float:
     """Carry the runs out; prints how long that took, and a hash of the table."""
     before, computed, load = time.monotonic(), cpu_time(), os.getloadavg()[0]
-    results: Results = experiment(drive, seeds=range(runs), progress=False, **options)
+    results: Results = experiment(drive, seeds=range(runs), **options)
     took = time.monotonic() - before
     table = results.save(folder / f"{name}.csv").read_bytes()
     digest = hashlib.sha256(table).hexdigest()[:12]

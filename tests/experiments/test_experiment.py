@@ -147,7 +147,7 @@ def test_three_workers_that_are_killed_lose_nothing_and_a_run_that_kills_its_own
 
 def test_a_process_that_has_died_between_two_runs_is_replaced() -> None:
     run = Run(0, 0, {"kind": "well"})
-    worker = pools.Worker(setting_for(drive, [run], simulator=False))
+    worker = pools.Worker(setting_for(drive, simulator=False))
     try:
         first = worker.carry_out(run)
         assert worker._pid is not None
@@ -226,7 +226,7 @@ def has_jobs(lesson: Any, jobs: int) -> None: ...
         (drive, {"kind": "a", "jobs": 0}, "jobs must be a whole number from 1 to 512, got 0"),
         (drive, {"kind": "a", "cpu_time": -1}, "cpu_time must be a number of seconds above 0, got -1"),
         (drive, {"kind": "a", "start_order": "any"}, "start_order must be 'as written' or 'shuffled', got 'any'"),
-        (drive, {"kind": "a", "distro": ["humble", "old"]}, 'distro must be one of the releases "humble", "iron"'),
+        (drive, {"kind": "a", "distro": "old"}, 'distro must be one of the releases "humble", "iron"'),
         (drive, {"kind": "a", "package": "nowhere"}, 'package must be "finished", "mine", None or the folder of a package'),
         (takes_no_lesson, {}, "takes_no_lesson must take the lesson as its first parameter: def takes_no_lesson(lesson): …"),
         (has_jobs, {}, "has_jobs has a parameter 'jobs', as experiment() itself has: give it another name"),

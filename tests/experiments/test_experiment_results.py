@@ -23,11 +23,11 @@ def table(amount: int = 3) -> Results:
     """Some runs of which every fourth has failed."""
     endings = []
     for number in range(amount):
-        run = Run(number, number % 50, {"gain": [1.0, 2.0][number % 2], "goal": (1, 2.5)}, start_order="shuffled")
+        run = Run(number, number % 50, {"gain": [1.0, 2.0][number % 2], "goal": (1, 2.5), "order": "shuffled"})
         good = Ending("ok", {"seconds": float(number)} if amount > 3 else VALUES[number], 1.0)
         bad = Ending("raised", {}, 0.5, "ValueError: no", "Traceback …\n", "it printed\n")
         endings.append((run, bad if number % 4 == 3 else good))
-    swept = ["start_order", "gain", "goal"]
+    swept = ["order", "gain", "goal"]
     about = {"world": {"package": None, "distro": "jazzy"}, "turtle_lesson": "1.0"}
     return Results(reversed(endings), swept, about=about, missing=2)
 
@@ -52,7 +52,7 @@ def test_a_long_table_is_shown_in_part_with_a_sentence_below() -> None:
     assert lines[0].split() == [
         "run",
         "seed",
-        "start_order",
+        "order",
         "gain",
         "goal",
         "outcome",
@@ -79,7 +79,7 @@ def test_other_programs_read_the_files(tmp_path: Path) -> None:
     assert head == [
         '# world: {"package": null, "distro": "jazzy"}',
         '# turtle_lesson: "1.0"',
-        '# swept: ["start_order", "gain", "goal"]',
+        '# swept: ["order", "gain", "goal"]',
         "# missing: 2",
     ]
     with pytest.raises(ExperimentError, match=r"saved as \"….csv\", got 'runs.txt'"):

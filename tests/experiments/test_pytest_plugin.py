@@ -30,8 +30,8 @@ def test_seeds(lesson):
     assert lesson._world.seed != 1, "the turtle did not arrive"
 
 
-@pytest.mark.worlds(seeds=[17, 4], gain=[1.0, 2.5], start_order=["as written", "shuffled"], simulator=False)
-def test_sweeps(lesson, gain, tmp_path):
+@pytest.mark.worlds(seeds=[17, 4], order=["as written", "shuffled"], gain=[1.0, 2.5], start_order="shuffled", simulator=False)
+def test_sweeps(lesson, order, gain, tmp_path):
     assert gain in (1.0, 2.5) and tmp_path.exists()
     assert lesson._world.seed in (4, 17)
 
@@ -85,7 +85,7 @@ def test_each_seed_is_a_test_in_a_world_of_its_own_and_a_wrong_mark_is_a_sentenc
             ("FAILED", "test_limit[seed0]"),
             *(("PASSED", name) for name in ("test_no_mark", "test_seeds[seed0]", "test_seeds[seed2]")),
             *(
-                ("PASSED", f"test_sweeps[start_order={order}-gain={gain}-seed{seed}]")
+                ("PASSED", f"test_sweeps[order={order}-gain={gain}-seed{seed}]")
                 for gain in (1.0, 2.5)
                 for order in ("as written", "shuffled")
                 for seed in (17, 4)

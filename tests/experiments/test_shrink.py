@@ -52,14 +52,12 @@ def test_numbers_below_their_base_too() -> None:
 
 
 def test_only_what_matters_stays() -> None:
-    base = {"loss": 0.0, "gain": 1.0, "driver": "calm", "start_order": "as written", "deep": True}
-    failed = {"loss": 0.5, "gain": 4.0, "driver": "hasty", "start_order": "shuffled", "deep": False}
-    given = {name: value for name, value in base.items() if name != "start_order"}
+    given = {"loss": 0.0, "gain": 1.0, "driver": "calm", "deep": True}
+    failed = {"loss": 0.5, "gain": 4.0, "driver": "hasty", "deep": False}
 
     def fails(loss: float, gain: float, driver: str, deep: bool) -> bool:
         return driver == "hasty"
 
-    failed.pop("start_order")
     assert shrunk(fails, given, failed)[0].change == {"driver": "hasty"}
 
     def needs_both(loss: float, gain: float, driver: str, deep: bool) -> bool:
@@ -179,8 +177,8 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
     assert capsys.readouterr().out == SAID
     assert len(results) == 29 and results.missing == 11 and [row["run"] for row in results.failed] == [28]
     assert results.smallest == {"loss": 0.2, "driver": "hasty"}
-    runs, swept = plan(breaks, range(5), SWEEP, package=None, distro=None, start_order="as written")
-    endings, smallest = search_failure(Backwards(), runs, swept, False)
+    runs, swept = plan(breaks, range(5), SWEEP)
+    endings, smallest = search_failure(Backwards(), runs, swept)
     assert capsys.readouterr().out == SAID
     assert [(run.number, ending.outcome) for run, ending in endings] == [
         (row["run"], row["outcome"]) for row in results
@@ -189,8 +187,8 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
 
 
 def test_nothing_that_fails_is_said(capsys: pytest.CaptureFixture[str]) -> None:
-    runs, swept = plan(breaks, range(3), {"loss": [0.1]}, package=None, distro=None, start_order="as written")
-    endings, smallest = search_failure(Backwards(), runs, swept, False)
+    runs, swept = plan(breaks, range(3), {"loss": [0.1]})
+    endings, smallest = search_failure(Backwards(), runs, swept)
     assert capsys.readouterr().out == "None of the 3 runs failed.\n"
     assert len(endings) == 3 and smallest is None
     with pytest.raises(ExperimentError, match='until must be "failure" or None'):

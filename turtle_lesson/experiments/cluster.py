@@ -9,12 +9,11 @@ from __future__ import annotations
 import contextlib
 import platform
 import socket
-import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .one_run import DIED, VERSION, Ending, ExperimentError, Run, Setting
-from .pools import Worker
+from .pools import Workers
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -116,10 +115,8 @@ def _check_workers(client: Client) -> None:
 
 # -- on a worker of the cluster ------------------------------------------------------------------------------------------
 
-_change = threading.Lock()
-_idle: dict[str, list[Worker]] = {}
-_all: dict[str, list[Worker]] = {}
-"""The worker processes that are kept here, by their experiment."""
+_workers: dict[str, Workers] = {}
+"""What is kept here of each experiment."""
 
 
 def _itself(setting: Setting) -> Setting:
@@ -132,22 +129,9 @@ def _about() -> str:
 
 def _carry_out_there(run: Run, setting: Setting) -> Ending:
     """Carry out a run in a process of this worker's."""
-    with _change:
-        idle = _idle.setdefault(setting.key, [])
-        if not idle:
-            idle.append(Worker(setting))
-            _all.setdefault(setting.key, []).append(idle[0])
-        worker = idle.pop()
-    try:
-        return worker.carry_out(run)
-    finally:
-        with _change:
-            idle.append(worker)
+    return _workers.setdefault(setting.key, Workers(setting)).carry_out(run)
 
 
 def _end_there(key: str) -> None:
-    with _change:
-        workers = _all.pop(key, [])
-        _idle.pop(key, None)
-    for worker in workers:
-        worker.end()
+    if workers := _workers.pop(key, None):
+        workers.close()

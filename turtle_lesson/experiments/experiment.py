@@ -12,19 +12,22 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..lab.words import count, did_you_mean, enumerated
 from ..ros.distro import chosen_release
 from ..ros.sim.strand import running_strand
 from ..session.lesson import START_ORDERS, package_folder
 from . import one_run
-from .one_run import OK, OPTIONS, PLAIN, Ending, ExperimentError, Run, name_of, plain
+from .one_run import OK, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
-from .pools import LocalPool, Pool, cores
+from .pools import LocalPool, cores
 from .replay import Replay
 from .results import Results, described
 from .shrink import smallest_change
+
+if TYPE_CHECKING:
+    from .cluster import ClusterPool
 
 MOST_JOBS = 512
 
@@ -50,14 +53,13 @@ def experiment(
     seeds: Iterable[int] = range(10),
     jobs: int | None = None,
     client: Any = None,
-    package: Any = "finished",
+    package: str | Path | None = "finished",
     simulator: bool = True,
-    distro: Any = None,
-    start_order: Any = "as written",
+    distro: str | None = None,
+    start_order: str = "as written",
     robot_time: float = 600.0,
     cpu_time: float = 60.0,
     until: str | None = None,
-    progress: bool | None = None,
     **parameters: Any,
 ) -> Results:
     """Call `function(lesson, **parameters)` in a fresh world for each seed and each combination of parameter values.
@@ -71,29 +73,27 @@ def experiment(
         seeds: one world each; see `start`.
         jobs: how many worker processes there are; None: one for each core that may be used.
         client: a `dask.distributed.Client`, or the address of a scheduler, to use a cluster instead.
-        package, distro, start_order: as for `start`; a list of several is swept as parameters are.
-        simulator: as for `start`.
+        package, simulator, distro, start_order: as for `start`.
         robot_time, cpu_time: how many seconds a run may take, of robot time and of computing.
         until: "failure" carries out runs in order until one fails, and looks for the smallest change that still fails.
-        progress: whether a bar is shown; None: in a live notebook and in a terminal.
         parameters: by name, a list of values to sweep, or a single one. The function's own defaults hold for all others.
 
     Raises ExperimentError, a ValueError, for an experiment that cannot be carried out.
     """
     _check_place()
-    runs, swept = plan(function, seeds, parameters, package=package, distro=distro, start_order=start_order)
+    runs, swept = plan(function, seeds, parameters)
+    world = checked_world(package, distro, start_order)
     check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
     if until not in (None, "failure"):
         raise ExperimentError(f'until must be "failure" or None, got {until!r}')
-    setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time)
-    world = {name: getattr(runs[0], name) for name in OPTIONS if name not in swept}
+    setting = setting_for(function, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time, **world)
     about = described(function, setting, world)
     smallest = None
     with closing(_open_pool(setting, len(runs), jobs, client)) as pool:
         if until is None:
-            endings = carry_out(pool, runs, progress)
+            endings = carry_out(pool, runs)
         else:
-            endings, smallest = search_failure(pool, runs, swept, progress)
+            endings, smallest = search_failure(pool, runs, swept)
     missing = len(runs) - len(endings)
     results = Results(endings, swept, about=about, missing=missing, function=function, setting=setting)
     results.smallest = smallest
@@ -105,9 +105,9 @@ def replay(
     function: Callable[..., Any],
     *,
     seed: int = 0,
-    package: Any = "finished",
+    package: str | Path | None = "finished",
     simulator: bool = True,
-    distro: Any = None,
+    distro: str | None = None,
     start_order: str = "as written",
     robot_time: float = 600.0,
     **parameters: Any,
@@ -119,14 +119,15 @@ def replay(
     """
     _check_place()
     given = {name: [value] for name, value in parameters.items()}
-    runs, swept = plan(function, [seed], given, package=package, distro=distro, start_order=start_order)
+    runs, swept = plan(function, [seed], given)
     check_limits(None, robot_time=robot_time)
-    setting = setting_for(function, runs, simulator=simulator, robot_time=robot_time)
+    world = checked_world(package, distro, start_order)
+    setting = setting_for(function, simulator=simulator, robot_time=robot_time, **world)
     table = Results([], swept)
     return Replay(setting, runs[0], lambda ending: table.row_of(runs[0], ending))
 
 
-def _open_pool(setting: one_run.Setting, runs: int, jobs: int | None, client: Any) -> Pool:
+def _open_pool(setting: one_run.Setting, runs: int, jobs: int | None, client: Any) -> LocalPool | ClusterPool:
     if client is None:
         return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), runs))
     from .cluster import ClusterPool
@@ -135,12 +136,12 @@ def _open_pool(setting: one_run.Setting, runs: int, jobs: int | None, client: An
 
 
 def carry_out(
-    pool: Pool, runs: Sequence[Run], progress: bool | None, at_once: int | None = None
+    pool: LocalPool | ClusterPool, runs: Sequence[Run], at_once: int | None = None
 ) -> list[tuple[Run, Ending]]:
     """Carry out runs; those that were over when the user interrupted. `at_once`: so many, and no more once one has failed."""
     done: list[tuple[Run, Ending]] = []
     try:
-        with bar(len(runs), progress) as told:
+        with bar(len(runs)) as told:
             for first in range(0, len(runs), at_once or len(runs)):
                 for run, ending in pool.carry_out(runs[first : first + (at_once or len(runs))]):
                     done.append((run, ending))
@@ -153,13 +154,13 @@ def carry_out(
 
 
 def search_failure(
-    pool: Pool, runs: Sequence[Run], swept: Sequence[str], progress: bool | None
+    pool: LocalPool | ClusterPool, runs: Sequence[Run], swept: Sequence[str]
 ) -> tuple[list[tuple[Run, Ending]], dict[str, Any] | None]:
     """Carry out runs in their order until one fails; then look for the smallest change with which that fails.
 
     What was carried out beyond the failing run, since workers work side by side, is left out of the table.
     """
-    done = sorted(carry_out(pool, runs, progress, AT_ONCE), key=lambda each: each[0].number)
+    done = sorted(carry_out(pool, runs, AT_ONCE), key=lambda each: each[0].number)
     first = next((at for at, (_, ending) in enumerate(done) if ending.outcome != OK), None)
     if first is None:
         if len(done) == len(runs):
@@ -169,7 +170,7 @@ def search_failure(
     if first != run.number:  # the user has stopped it before all others of a lower number were over
         return done, None
     print(f"Run {run.number} (seed {run.seed}) failed: {ending.error or ending.outcome}")
-    base = {name: runs[0].value_of(name) for name in swept}
+    base = {name: runs[0].parameters[name] for name in swept}
     found = smallest_change(run, ending, base, lambda another: next(iter(pool.carry_out([another])))[1])
     if text := found.told():
         print(text)
@@ -179,25 +180,12 @@ def search_failure(
 # -- the plan ------------------------------------------------------------------------------------------------------------
 
 
-def plan(
-    function: Callable[..., Any], seeds: Iterable[int], parameters: dict[str, Any], **options: Any
-) -> tuple[list[Run], list[str]]:
+def plan(function: Callable[..., Any], seeds: Iterable[int], parameters: dict[str, Any]) -> tuple[list[Run], list[str]]:
     """The runs of an experiment in their order, and the names of what is swept. Raises ExperimentError."""
     _check_function(function, parameters)
-    lists = {name: values for name, values in options.items() if isinstance(values, (list, tuple))}
-    swept = {name: _values(name, values) for name, values in {**lists, **parameters}.items()}
-    fixed = {name: value for name, value in options.items() if name not in lists}
-    for name in options:
-        for value in swept.get(name, [fixed.get(name)]):
-            _check_option(name, value)
-    runs = []
-    for number, (*values, seed) in enumerate(itertools.product(*swept.values(), _seeds(seeds))):
-        given = dict(zip(swept, values, strict=True))
-        mine = {name: value for name, value in given.items() if name in parameters}
-        world = fixed | {name: given[name] for name in lists}
-        if isinstance(world.get("package"), Path):
-            world["package"] = str(world["package"])
-        runs.append(Run(number, seed, mine, **world))
+    swept = {name: _values(name, values) for name, values in parameters.items()}
+    combined = itertools.product(*swept.values(), _seeds(seeds))
+    runs = [Run(number, seed, dict(zip(swept, values, strict=True))) for number, (*values, seed) in enumerate(combined)]
     return runs, list(swept)
 
 
@@ -270,16 +258,18 @@ def _is_plain(value: Any) -> bool:
     return all(map(_is_plain, value)) if isinstance(value, tuple) else isinstance(value, PLAIN)
 
 
-def _check_option(name: str, value: Any) -> None:
+def checked_world(package: str | Path | None, distro: str | None, start_order: str) -> dict[str, Any]:
+    """What the worlds of all runs have in common, by the names of `start`. Raises ExperimentError for what makes no sense."""
     try:
-        if name == "package" and value != "mine":
-            package_folder(value)
-        elif name == "distro":
-            chosen_release(value)
-        elif name == "start_order" and value not in START_ORDERS:
-            raise ValueError(f"start_order must be {' or '.join(map(repr, START_ORDERS))}, got {value!r}")
+        if package != "mine":
+            package_folder(package)
+        chosen_release(distro)
     except ValueError as error:
         raise ExperimentError(str(error)) from None
+    if start_order not in START_ORDERS:
+        raise ExperimentError(f"start_order must be {' or '.join(map(repr, START_ORDERS))}, got {start_order!r}")
+    package = str(package) if isinstance(package, Path) else package
+    return {"package": package, "distro": distro, "start_order": start_order}
 
 
 def check_limits(jobs: Any, **limits: Any) -> None:
@@ -295,15 +285,15 @@ def check_limits(jobs: Any, **limits: Any) -> None:
 
 
 @contextmanager
-def bar(total: int, wanted: bool | None) -> Iterator[Callable[[bool], object]]:
-    """Show how many of so many runs are over; `wanted` None: in a live notebook or a terminal. Nothing of it is left.
+def bar(total: int) -> Iterator[Callable[[bool], object]]:
+    """Show how many of so many runs are over, in a live notebook or a terminal. Nothing of it is left.
 
     What this gives is called with whether a run has failed, for each that is over.
     """
     ipython: Any = sys.modules.get("IPython")
     kernel = getattr(ipython and ipython.get_ipython(), "kernel", None)
     watched = _is_live(kernel) if kernel is not None else sys.stderr.isatty()
-    if wanted is False or (wanted is None and (not watched or "CI" in os.environ)):
+    if not watched or "CI" in os.environ:
         yield lambda failed: None
         return
     tqdm: Any = import_module("tqdm.std" if kernel is None else "tqdm.notebook").tqdm

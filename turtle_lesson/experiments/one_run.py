@@ -15,7 +15,7 @@ import tarfile
 import threading
 import zlib
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from importlib import import_module
 from multiprocessing import parent_process
 from pathlib import Path
@@ -42,9 +42,6 @@ STACK = "stack"
 PLAIN = (bool, int, float, str, type(None))
 """The types of what a table holds."""
 
-OPTIONS = ("package", "distro", "start_order")
-"""What is asked for of a run besides the function's parameters."""
-
 TAIL = 4000
 """How many characters of what a failed run has printed are kept."""
 
@@ -59,13 +56,15 @@ class Setting:
 
     function: bytes
     """The function, pickled by cloudpickle; unpickled anew for each run, so that no run sees what another one has changed."""
+    package: str | None = "finished"
+    """As for `start`; a folder is one of `folders`."""
     simulator: bool = True
+    distro: str | None = None
+    start_order: str = "as written"
     robot_time: float = 600.0
     cpu_time: float = 60.0
     folders: dict[str, bytes] = field(default_factory=dict)
     """Archives of the learner's folders, by where they belong in the folder of a run."""
-    places: dict[str, str] = field(default_factory=dict)
-    """By the folder that a run names as its `package`, where it is in the folder of a run."""
     sources: dict[str, str] = field(default_factory=dict)
     """The texts of the notebook's cells and the learner's files, by file name, for tracebacks."""
     key: str = field(default_factory=lambda: uuid4().hex)
@@ -74,18 +73,11 @@ class Setting:
 
 @dataclass(frozen=True)
 class Run:
-    """One run: what its world is made of, and what the function gets."""
+    """One run: the seed of its world, and what the function gets."""
 
     number: int
     seed: int
     parameters: dict[str, Any] = field(default_factory=dict)
-    package: str | None = "finished"
-    distro: str | None = None
-    start_order: str = "as written"
-
-    def value_of(self, name: str) -> Any:
-        """The value of a parameter, or of an option of the world."""
-        return getattr(self, name) if name in OPTIONS else self.parameters[name]
 
 
 @dataclass
@@ -112,7 +104,7 @@ def open_run(setting: Setting, run: Run) -> Lesson:
 
     random.seed(run.seed)
     numpy.random.seed(run.seed % 2**32)
-    lesson = start(run.seed, run.package, setting.simulator, distro=run.distro, start_order=run.start_order)
+    lesson = start(run.seed, setting.package, setting.simulator, distro=setting.distro, start_order=setting.start_order)
     lesson._world.sim.end = round(setting.robot_time * NANOSECONDS)
     return lesson
 
@@ -176,35 +168,6 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
 # -- in a worker process -------------------------------------------------------------------------------------------------
 
 
-class _Worker:
-    """What this process works on: an experiment, in a folder of its own.
-
-    `fresh` holds what each run finds in its folder, and `run` is that folder: its path is the same for each run, so that a
-    workspace which the first one has built stays built.
-    """
-
-    def __init__(self, setting: Setting, folder: Path) -> None:
-        self.setting, self.fresh, self.run = setting, folder / "fresh", folder / "run"
-        self.fresh.mkdir()
-        for name, packed in setting.folders.items():
-            unpack(packed, self.fresh / name)
-        self.built = False
-
-    def enter(self) -> None:
-        """Make the folder of the next run, and go there."""
-        os.chdir(self.fresh.parent)
-        shutil.rmtree(self.run, ignore_errors=True)
-        shutil.copytree(self.fresh, self.run)
-        os.chdir(self.run)
-
-    def keep_build(self) -> None:
-        """Have further runs find the workspace built."""
-        if not self.built and (self.run / "workspace" / "install").is_dir():
-            shutil.rmtree(self.fresh / "workspace")
-            shutil.copytree(self.run / "workspace", self.fresh / "workspace", symlinks=True)
-        self.built = True
-
-
 def unpack(packed: bytes, folder: Path) -> None:
     """Write the files of an archive into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -215,12 +178,14 @@ def unpack(packed: bytes, folder: Path) -> None:
             tar.extractall(folder)
 
 
-_worker: _Worker | None = None
+_setting: Setting | None = None
+"""What this process works on, in its current folder: `fresh` there holds what each run finds in its folder, and `run` is that
+folder. Its path is the same for each run, so that a workspace which the first one has built stays built."""
 
 
 def begin(setting: Setting, folder: Path) -> None:
     """Make this process a worker: what each of its runs needs is made once."""
-    global _worker
+    global _setting
     with contextlib.suppress(AttributeError, PermissionError):
         os.setpgid(0, 0)  # Ctrl-C in a terminal is for the process that waits for this one
     threading.Thread(target=_end_with_parent, args=(folder,), daemon=True).start()
@@ -230,12 +195,16 @@ def begin(setting: Setting, folder: Path) -> None:
         linecache.cache[name] = (len(text), None, text.splitlines(keepends=True), name)
     Notebook.is_learners = staticmethod(errors.is_learners)
     os.environ["TURTLE_LESSON_PROGRESS"] = "off"
-    _worker = _Worker(setting, folder)
+    (folder / "fresh").mkdir()
+    for name, packed in setting.folders.items():
+        unpack(packed, folder / "fresh" / name)
+    os.chdir(folder)
+    _setting = setting
 
 
 def is_worker() -> bool:
     """Whether this process is a worker."""
-    return _worker is not None
+    return _setting is not None
 
 
 def _end_with_parent(folder: Path) -> None:
@@ -248,22 +217,26 @@ def _end_with_parent(folder: Path) -> None:
 
 def carry_out(run: Run) -> Ending:
     """Carry a run out in this worker process, in a fresh folder. Raises ExperimentError if the function cannot be loaded."""
-    assert _worker is not None, "begin() comes first"
-    setting = _worker.setting
-    run = replace(run, package=setting.places.get(run.package or "", run.package))
-    _worker.enter()
+    assert _setting is not None, "begin() comes first"
+    place = Path.cwd()
+    fresh, here = place / "fresh", place / "run"
+    shutil.rmtree(here, ignore_errors=True)
+    shutil.copytree(fresh, here)
+    os.chdir(here)
     printed = Tail()
     with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
-        lesson = open_run(setting, run)
+        lesson = open_run(_setting, run)
         try:
-            if run.package == "mine":
-                _worker.keep_build()
-            ending = call_in(lesson, load(setting), run)
+            if (here / "workspace" / "install").is_dir() and not (fresh / "workspace" / "install").is_dir():
+                shutil.rmtree(fresh / "workspace")  # further runs find the workspace built
+                shutil.copytree(here / "workspace", fresh / "workspace", symlinks=True)
+            ending = call_in(lesson, load(_setting), run)
         finally:
             lesson._world.close()
             views.progress_file.cache_clear()
+            os.chdir(place)
     ending.printed = "" if ending.outcome == OK else printed.tail()
-    forget_folder(ending, _worker.run)
+    forget_folder(ending, here)
     return ending
 
 

@@ -10,7 +10,7 @@ import linecache
 import sys
 import tarfile
 import zlib
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
@@ -18,23 +18,22 @@ from typing import Any
 
 from ..ros.runtime.files import home
 from ..ros.sim.errors import is_learners
-from .one_run import PLAIN, ExperimentError, Run, Setting, name_of
+from .one_run import PLAIN, ExperimentError, Setting, name_of
 
 MADE = ("build", "install", "log", "kept")
 """Folders of a workspace that are made from the others: each worker builds by itself."""
 
 
-def setting_for(function: Callable[..., Any], runs: Iterable[Run], **limits: Any) -> Setting:
-    """All that these runs of a function share. Raises ExperimentError where the function cannot be sent."""
+def setting_for(function: Callable[..., Any], package: str | Path | None = "finished", **options: Any) -> Setting:
+    """All that the runs of a function share. Raises ExperimentError where the function cannot be sent."""
     folders: dict[str, bytes] = {}
-    places: dict[str, str] = {}
-    for package in dict.fromkeys(run.package for run in runs):
-        if package not in (None, "finished", "mine"):
-            places[package] = f"packages/{len(places)}/{Path(package).resolve().name}"
-            folders[places[package]] = archive(Path(package))
+    if package is not None and package not in ("finished", "mine"):
+        folder = Path(package).resolve()
+        package = f"packages/{folder.name}"
+        folders[package] = archive(folder)
     if (home() / "workspace").is_dir():
         folders["workspace"] = archive(home() / "workspace", MADE)
-    return Setting(pickled(function), folders=folders, places=places, sources=sources_of(function), **limits)
+    return Setting(pickled(function), package, folders=folders, sources=sources_of(function), **options)
 
 
 def archive(folder: Path, left_out: Collection[str] = ()) -> bytes:

@@ -18,13 +18,13 @@ import threading
 import time
 from collections import deque
 from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed, wait
 from concurrent.futures.process import BrokenProcessPool
 from linecache import getline
 from math import ceil
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Protocol
+from typing import Any
 
 import psutil
 
@@ -48,16 +48,6 @@ MOST_STARTS = 3
 _KILL = getattr(signal, "SIGKILL", signal.SIGTERM)
 
 
-class Pool(Protocol):
-    """Carries out runs, wherever that is."""
-
-    def carry_out(self, runs: Sequence[Run]) -> Iterator[tuple[Run, Ending]]:
-        """Carry out runs; they come in the order in which they end."""
-
-    def close(self) -> None:
-        """End it all, whatever goes on."""
-
-
 class Worker:
     """A worker process, and the next one where it has died or was killed."""
 
@@ -66,14 +56,43 @@ class Worker:
         self._pool: ProcessPoolExecutor | None = None
         self._pid: Future[int] | None = None
         self._folder = Path()
-        self._watch: _Watch | None = None
-        self._verdict: Ending | None = None
-        self._ended = False
         self._failed_starts = 0
+        self.ended = False
+        """Set by another thread: the run that goes on is to be ended, and no other one begun."""
 
-    def submit(self, run: Run) -> Future[Ending]:
-        """Have it carry out a run; `ending` says what came of the future."""
-        self._watch = self._verdict = None
+    def carry_out(self, run: Run) -> Ending:
+        """Carry out a run, and wait for its end; if the process dies, it is tried once more."""
+        for _ in range(2):
+            future = self._submit(run)
+            watch: _Watch | None = None
+            verdict: Ending | None = None
+            while not self.ended and not wait([future], LOOK).done:
+                if self._pid is None or not self._pid.done() or self._pid.exception() is not None:
+                    continue
+                with contextlib.suppress(psutil.Error, ProcessLookupError):  # it has ended a moment ago
+                    watch = watch or _Watch(self._pid.result(), self._setting.cpu_time)
+                    if verdict is None and (too_long := watch.too_long()):
+                        verdict = Ending(CPU_TIME, error=too_long, traceback=self._where())
+                        os.kill(self._pid.result(), _KILL)
+            if self.ended:
+                self.close()
+                break
+            try:
+                ending = future.result()
+                self._failed_starts = 0
+                return ending
+            except BrokenProcessPool:
+                self._failed_starts += self._pid is not None and self._pid.exception() is not None
+                if self._failed_starts == MOST_STARTS:
+                    raise ExperimentError(
+                        "worker processes end here as soon as they begin: what they print says why"
+                    ) from None
+                self._clear()
+                if verdict is not None:
+                    return verdict
+        return Ending(DIED, error="the worker process died, twice, in the middle of this run")
+
+    def _submit(self, run: Run) -> Future[Ending]:
         with _starting(), defer_sigint():
             if self._pool is not None:
                 with contextlib.suppress(BrokenProcessPool):  # it has died since its last run
@@ -84,44 +103,6 @@ class Worker:
             self._pool = ProcessPoolExecutor(1, spawn, one_run.begin, (self._setting, self._folder))
             self._pid = self._pool.submit(os.getpid)
             return self._pool.submit(one_run.carry_out, run)
-
-    def carry_out(self, run: Run) -> Ending:
-        """Carry out a run, and wait for its end; if the process dies, it is tried once more."""
-        ending = Ending(DIED)
-        for _ in range(2):
-            if ending.outcome == DIED and not self._ended:
-                future = self.submit(run)
-                while not wait([future], LOOK).done:
-                    self.look()
-                ending = self.ending(future)
-        return ending
-
-    def look(self) -> None:
-        """Kill the process if its run has computed, or waited, for longer than it may."""
-        if self._pid is None or not self._pid.done() or self._pid.exception() is not None:
-            return
-        if self._watch is None:
-            with contextlib.suppress(psutil.Error):
-                self._watch = _Watch(self._pid.result(), self._setting.cpu_time)
-        elif self._verdict is None and (too_long := self._watch.too_long()):
-            with contextlib.suppress(ProcessLookupError):  # it has ended a moment ago
-                self._verdict = Ending(CPU_TIME, error=too_long, traceback=self._where())
-                os.kill(self._pid.result(), _KILL)
-
-    def ending(self, future: Future[Ending]) -> Ending:
-        """What came of a run that is done."""
-        try:
-            ending = future.result()
-            self._failed_starts = 0
-            return ending
-        except BrokenProcessPool:
-            self._failed_starts += self._pid is not None and self._pid.exception() is not None
-            if self._failed_starts == MOST_STARTS:
-                raise ExperimentError(
-                    "worker processes end here as soon as they begin: what they print says why"
-                ) from None
-            self._clear()
-            return self._verdict or Ending(DIED, error="the worker process died, twice, in the middle of this run")
 
     def close(self) -> None:
         """End the process, whatever it does."""
@@ -136,11 +117,6 @@ class Worker:
         if pool is not None:
             pool.shutdown(cancel_futures=True)
             shutil.rmtree(self._folder, ignore_errors=True)
-
-    def end(self) -> None:
-        """End the process for good, from another thread than the one that waits for it."""
-        self._ended = True
-        self.close()
 
     def _where(self) -> str:
         """Where its main thread is, as the end of a traceback; "" where the system cannot tell."""
@@ -215,43 +191,50 @@ def _starting() -> Iterator[None]:
                 os.environ["PYTHONHASHSEED"] = hashes
 
 
-class LocalPool:
-    """Some worker processes of this computer. They go on to wait for further runs until `close`."""
+class Workers:
+    """Worker processes of one experiment, one for each thread that has a run carried out; each waits for further runs."""
 
-    def __init__(self, setting: Setting, jobs: int) -> None:
-        self._workers = [Worker(setting) for _ in range(jobs)]
+    def __init__(self, setting: Setting) -> None:
+        self._setting = setting
+        self._all: list[Worker] = []
+        self._idle: deque[Worker] = deque()
 
-    def carry_out(self, runs: Sequence[Run]) -> Iterator[tuple[Run, Ending]]:
-        """Carry out runs; one whose worker died is tried once more in the end, alone."""
-        died = []
-        for run, ending in self._carry_out(runs, self._workers):
-            if ending.outcome == DIED:
-                died.append(run)
-            else:
-                yield run, ending
-        yield from self._carry_out(died, self._workers[:1])
-
-    def _carry_out(self, runs: Sequence[Run], workers: Sequence[Worker]) -> Iterator[tuple[Run, Ending]]:
-        waiting, idle = deque(runs), deque(workers)
-        busy: dict[Future[Ending], tuple[Worker, Run]] = {}
-        looked = time.monotonic()
-        while waiting or busy:
-            while waiting and idle:
-                worker, run = idle.popleft(), waiting.popleft()
-                busy[worker.submit(run)] = worker, run
-            for future in wait(busy, timeout=LOOK, return_when=FIRST_COMPLETED).done:
-                worker, run = busy.pop(future)
-                idle.append(worker)
-                yield run, worker.ending(future)
-            if time.monotonic() > looked + LOOK:
-                looked = time.monotonic()
-                for worker, _ in busy.values():
-                    worker.look()
+    def carry_out(self, run: Run) -> Ending:
+        """Carry out a run, in this thread."""
+        try:
+            worker = self._idle.popleft()
+        except IndexError:
+            worker = Worker(self._setting)
+            self._all.append(worker)
+        try:
+            return worker.carry_out(run)
+        finally:
+            self._idle.append(worker)
 
     def close(self) -> None:
-        """End all workers, whatever they do."""
-        for worker in self._workers:
+        """End all processes: idle ones now, the others soon, by the threads that wait for them."""
+        for worker in self._all:
+            worker.ended = True
+        for worker in list(self._idle):
             worker.close()
+
+
+class LocalPool:
+    """Carries out so many runs at once on this computer."""
+
+    def __init__(self, setting: Setting, jobs: int) -> None:
+        self._workers, self._threads = Workers(setting), ThreadPoolExecutor(jobs)
+
+    def carry_out(self, runs: Sequence[Run]) -> Iterator[tuple[Run, Ending]]:
+        """Carry out runs; they come in the order in which they end."""
+        of = {self._threads.submit(self._workers.carry_out, run): run for run in runs}
+        for future in as_completed(of):
+            yield of[future], future.result()
+
+    def close(self) -> None:
+        """End it all, whatever goes on."""
+        self._workers.close()
+        self._threads.shutdown(cancel_futures=True)
 
 
 def cores() -> int:

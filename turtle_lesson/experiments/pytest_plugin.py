@@ -24,8 +24,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from .experiment import check_limits, plan
-from .one_run import OPTIONS, ExperimentError, Run, Setting, open_run
+from .experiment import check_limits, checked_world, plan
+from .one_run import ExperimentError, Run, Setting, open_run
 from .replay import Surroundings
 
 if TYPE_CHECKING:
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 MARK = "worlds"
 
-WORLD = {name: getattr(Run(0, 0), name) for name in OPTIONS}
-SETTING = {name: getattr(Setting(b""), name) for name in ("simulator", "robot_time")}
+WORLD = ("package", "distro", "start_order")
+SETTING = {name: getattr(Setting(b""), name) for name in (*WORLD, "simulator", "robot_time")}
 
 
 @dataclass(frozen=True)
@@ -70,11 +70,13 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         wrong = str(error)
     if wrong:
         pytest.fail(f"{name}, marked with @pytest.mark.{MARK}: {wrong}", pytrace=False)
-    names = [each for each in swept if each not in OPTIONS]
-    values = [[f"{name}={place.run.value_of(name)}" for name in swept] + [f"seed{place.run.seed}"] for place in places]
+    values = [
+        [f"{name}={value}" for name, value in place.run.parameters.items()] + [f"seed{place.run.seed}"]
+        for place in places
+    ]
     metafunc.parametrize(
-        [*names, "lesson"],
-        [[*(place.run.parameters[each] for each in names), place] for place in places],
+        [*swept, "lesson"],
+        [[*place.run.parameters.values(), place] for place in places],
         ids=map("-".join, values),
         indirect=["lesson"],
     )
@@ -85,21 +87,16 @@ def _places(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Plac
     seeds = given.pop("seeds", 10)
     seeds = range(seeds) if isinstance(seeds, int) and not isinstance(seeds, bool) else seeds
     setting = {name: given.pop(name, value) for name, value in SETTING.items()}
-    world = {name: given.pop(name, value) for name, value in WORLD.items()}
-    world["package"] = _from_root(world["package"], metafunc.config.rootpath)
+    package, root = setting["package"], metafunc.config.rootpath  # wherever pytest was started
+    if isinstance(package, (str, Path)) and (root / package).is_dir():
+        setting["package"] = root / package
+    runs, swept = plan(_template(metafunc), seeds, given)
+    setting |= checked_world(*(setting[name] for name in WORLD))
     check_limits(None, robot_time=setting["robot_time"])
-    runs, swept = plan(_template(metafunc), seeds, given, **world)
     for name in given:
         if inspect.signature(metafunc.function).parameters[name].default is not inspect.Parameter.empty:
             raise ExperimentError(f"{name} has a default, which pytest never replaces: leave =… out in the parameters")
     return [Place(run, Setting(b"", **setting)) for run in runs], swept
-
-
-def _from_root(package: Any, root: Path) -> Any:
-    """The folder of a package as pytest's root folder has it, wherever pytest was started."""
-    if isinstance(package, list):
-        return [_from_root(each, root) for each in package]
-    return str(root / package) if isinstance(package, (str, Path)) and (root / package).is_dir() else package
 
 
 def _template(metafunc: pytest.Metafunc) -> Any:
@@ -136,9 +133,8 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestR
     place = getattr(item, "callspec", None) and item.callspec.params.get("lesson")  # type: ignore[attr-defined]
     if report.when == "call" and report.failed and isinstance(place, Place):
         given = {"seed": place.run.seed, **place.run.parameters}
-        given |= {name: getattr(place.run, name) for name, value in WORLD.items() if getattr(place.run, name) != value}
-        given |= {name: getattr(place.setting, name) for name, value in SETTING.items()}
-        given = {name: value for name, value in given.items() if SETTING.get(name) != value or name not in SETTING}
+        asked = {name: getattr(place.setting, name) for name in SETTING}
+        given |= {name: value for name, value in asked.items() if value != SETTING[name]}
         function = item.originalname  # type: ignore[attr-defined]
         words = ", ".join([function, *(f"{name}={value!r}" for name, value in given.items())])
         report.sections.append(

@@ -16,7 +16,6 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,7 +79,6 @@ class Replay:
         for name, packed in setting.folders.items():
             unpack(packed, place / name)
         self._surroundings = Surroundings(place)
-        run = replace(run, package=setting.places.get(run.package or "", run.package))
         with self._surroundings.hold(), self._surroundings.printed():
             self.lesson: Lesson = open_run(setting, run)
         self._world = self.lesson._world
@@ -195,7 +193,8 @@ def replay_of(results: Results, wanted: int | None, function: Callable[..., Any]
     run = results.runs[row["run"]]
     assert results.function is not None and setting is not None
     if function is not None:
-        setting = setting_for(function, [run], simulator=setting.simulator, robot_time=setting.robot_time)
+        simulator, limit = setting.simulator, setting.robot_time
+        setting = setting_for(function, simulator=simulator, robot_time=limit, **results.about["world"])
         now, what = function, "it is replayed as it is now, and may end otherwise."
     else:
         now, what = _as_it_is_now(results.function), "it is replayed as it was then."

@@ -93,7 +93,7 @@ class Results(Table):
     def row_of(self, run: Run, ending: Ending) -> dict[str, Any]:
         """The row that this table would have for what came of a run."""
         row: dict[str, Any] = {"run": run.number, "seed": run.seed}
-        row |= {name: run.value_of(name) for name in self.swept}
+        row |= {name: run.parameters[name] for name in self.swept}
         row["outcome"] = ending.outcome
         row |= {name: ending.values.get(name) for name in dict.fromkeys([*self._returned, *ending.values])}
         row["robot_time"] = ending.robot_time

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import Any
 
 from ..lab.words import count
-from .one_run import OPTIONS, RAISED, Ending, Run
+from .one_run import RAISED, Ending, Run
 
 MOST_RUNS = 200
 """How many runs are tried at most."""
@@ -27,7 +27,6 @@ NEAR = 0.01
 """A bisection ends when it knows the value to this share of the whole change."""
 
 
-@dataclass
 class Smallest:
     """The smallest change that is known to fail.
 
@@ -38,21 +37,21 @@ class Smallest:
         complete: whether nothing smaller fails, as far as this search can tell; False if it was ended before.
     """
 
-    run: Run
-    ending: Ending
-    base: dict[str, Any]
-    tried: int = 0
-    complete: bool = False
+    def __init__(self, failed: Run, ending: Ending, base: dict[str, Any], carry_out: Callable[[Run], Ending]) -> None:
+        self.run, self.ending, self.base = failed, ending, base
+        self.tried = 0
+        self.complete = False
+        self._carry_out = carry_out
+        self._spans = dict(failed.parameters)
+        self._passes = set[str]()
 
     @property
     def change(self) -> dict[str, Any]:
         """The parameters that differ from their base, with their values."""
-        return {name: value for name, value in self.values.items() if not _equal(value, self.base[name])}
+        return {name: value for name, value in self._values().items() if not _equal(value, self.base[name])}
 
-    @property
-    def values(self) -> dict[str, Any]:
-        """The values of all parameters."""
-        return {name: self.run.value_of(name) for name in self.base}
+    def _values(self) -> dict[str, Any]:
+        return {name: self.run.parameters[name] for name in self.base}
 
     def told(self) -> str:
         """The change in a sentence."""
@@ -65,6 +64,54 @@ class Smallest:
         rest = "" if self.complete else " A smaller one was not looked for to the end."
         return f"The smallest change that still fails with this seed: {', '.join(parts)} ({tried}).{rest}"
 
+    def search(self) -> None:
+        """Make the change smaller until nothing changes, or until there were too many runs."""
+        searched: dict[str, list[Any]] = {}
+        while self.tried < MOST_RUNS and not self.complete:
+            before = self._values()
+            for name in before:
+                self._fails_with(name, self.base[name])
+            for name in before:
+                others = [value for other, value in self._values().items() if other != name]
+                if searched.get(name) != others:  # or it is known already
+                    searched[name] = others
+                    self._bisect(name)
+            self.complete = self.tried < MOST_RUNS and self._values() == before
+
+    def _fails_with(self, name: str, value: Any) -> bool:
+        """Whether the run still fails with another value; then it is kept."""
+        if _equal(self.run.parameters[name], value):
+            return True
+        run = replace(self.run, parameters=self.run.parameters | {name: value})
+        key = repr([run.parameters[each] for each in self.base])
+        if key in self._passes or self.tried >= MOST_RUNS:
+            return False
+        self.tried += 1
+        ending = self._carry_out(run)
+        if _kind(ending) != _kind(self.ending):
+            self._passes.add(key)
+            return False
+        self.run, self.ending = run, ending
+        return True
+
+    def _bisect(self, name: str) -> None:
+        """Bring a number nearer to its base, which does not fail, and make it a round one."""
+        passes, fails = self.base[name], self.run.parameters[name]
+        if not (_is_number(passes) and _is_number(fails)) or _equal(passes, fails):
+            return
+        whole = isinstance(passes, int) and isinstance(fails, int)
+        near = 1 if whole else NEAR * abs(self._spans[name] - passes)
+        for _ in range(STEPS):
+            if abs(fails - passes) <= near:
+                break
+            middle = (passes + fails) // 2 if whole else (passes + fails) / 2
+            if self._fails_with(name, middle):
+                fails = middle
+            else:
+                passes = middle
+        if not whole:
+            self._fails_with(name, rounder(passes, fails))
+
 
 def smallest_change(
     failed: Run, ending: Ending, base: Mapping[str, Any], carry_out: Callable[[Run], Ending]
@@ -73,73 +120,12 @@ def smallest_change(
 
     A stop by the user (KeyboardInterrupt) ends the search with what is known by then.
     """
-    found = Smallest(failed, ending, dict(base))
+    found = Smallest(failed, ending, dict(base), carry_out)
     try:
-        found.complete = _Search(found, carry_out).go()
+        found.search()
     except KeyboardInterrupt:
         print("Stopped; a smaller change was not looked for any further.")
     return found
-
-
-class _Search:
-    def __init__(self, found: Smallest, carry_out: Callable[[Run], Ending]) -> None:
-        self.found, self.carry_out = found, carry_out
-        self.kind = _kind(found.ending)
-        self.spans = {name: found.run.value_of(name) for name in found.base}
-        self.passes = set[str]()
-
-    def go(self) -> bool:
-        """Make the change smaller until nothing changes; whether that was reached before there were too many runs."""
-        searched: dict[str, list[Any]] = {}
-        while True:
-            before = self.found.values
-            for name in before:
-                self.fails_with(name, self.found.base[name])
-            for name in before:
-                others = [value for other, value in self.found.values.items() if other != name]
-                if searched.get(name) != others:  # or it is known already
-                    searched[name] = others
-                    self.bisect(name)
-            if self.found.tried >= MOST_RUNS:
-                return False
-            if self.found.values == before:
-                return True
-
-    def fails_with(self, name: str, value: Any) -> bool:
-        """Whether the run still fails with another value; then it is kept."""
-        found = self.found
-        if _equal(found.run.value_of(name), value):
-            return True
-        changed: dict[str, Any] = {name: value}
-        run = replace(found.run, **(changed if name in OPTIONS else {"parameters": found.run.parameters | changed}))
-        key = repr([run.value_of(each) for each in found.base])
-        if key in self.passes or found.tried >= MOST_RUNS:
-            return False
-        found.tried += 1
-        ending = self.carry_out(run)
-        if _kind(ending) != self.kind:
-            self.passes.add(key)
-            return False
-        found.run, found.ending = run, ending
-        return True
-
-    def bisect(self, name: str) -> None:
-        """Bring a number nearer to its base, which does not fail, and make it a round one."""
-        passes, fails = self.found.base[name], self.found.run.value_of(name)
-        if not (_is_number(passes) and _is_number(fails)) or _equal(passes, fails):
-            return
-        whole = isinstance(passes, int) and isinstance(fails, int)
-        near = 1 if whole else NEAR * abs(self.spans[name] - passes)
-        for _ in range(STEPS):
-            if abs(fails - passes) <= near:
-                break
-            middle = (passes + fails) // 2 if whole else (passes + fails) / 2
-            if self.fails_with(name, middle):
-                fails = middle
-            else:
-                passes = middle
-        if not whole:
-            self.fails_with(name, rounder(passes, fails))
 
 
 def rounder(passes: float, fails: float) -> float:

@@ -10,7 +10,6 @@ import math
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from enum import Enum, auto
 from typing import Any
 
 import rclpy
@@ -31,15 +30,6 @@ SPEED, TURN_SPEED = 1.0, 0.4
 NEAR, ALIGNED, STILL = 0.1, 0.01, 0.0001
 
 
-class State(Enum):
-    """What the turtle is about."""
-
-    FORWARD = auto()
-    STOP_FORWARD = auto()
-    TURN = auto()
-    STOP_TURN = auto()
-
-
 class DrawSquare(Node):
     """The turtle walks along a square, one side after the other, driven by what is heard of its pose."""
 
@@ -47,7 +37,7 @@ class DrawSquare(Node):
         super().__init__("draw_square")
         self._pose: Pose | None = None
         self._goal: Pose | None = None
-        self._state = State.FORWARD
+        self._turning = self._stopping = False
         self._publisher = self.create_publisher(Twist, "turtle1/cmd_vel", 1)
         self.create_subscription(Pose, "turtle1/pose", self._on_pose, 1)
         self.create_timer(PERIOD, self._step)
@@ -57,59 +47,36 @@ class DrawSquare(Node):
         self._pose = pose
 
     def _step(self) -> None:
-        if self._pose is None:
+        pose = self._pose
+        if pose is None:
             return
-        if self._goal is None:
-            self._aim(self._ahead(self._pose))
-        match self._state:
-            case State.FORWARD:
-                self._go_on(SPEED, 0.0, State.STOP_FORWARD)
-            case State.TURN:
-                self._go_on(0.0, TURN_SPEED, State.STOP_TURN)
-            case State.STOP_FORWARD:
-                self._stop(State.TURN, self._turned(self._pose))
-            case State.STOP_TURN:
-                self._stop(State.FORWARD, self._ahead(self._pose))
-
-    @staticmethod
-    def _ahead(pose: Pose) -> Pose:
-        x, y = pose.x + SIDE * math.cos(pose.theta), pose.y + SIDE * math.sin(pose.theta)
-        return Pose(x=x, y=y, theta=pose.theta)
-
-    @staticmethod
-    def _turned(pose: Pose) -> Pose:
-        theta = math.remainder(pose.theta + math.pi / 2.0, 2.0 * math.pi)
-        return Pose(x=pose.x, y=pose.y, theta=theta)
-
-    def _aim(self, goal: Pose) -> None:
-        self._goal = goal
-        self.get_logger().info(f"New goal [{goal.x:f} {goal.y:f}, {goal.theta:f}]")
-
-    def _there(self) -> bool:
-        pose, goal = self._pose, self._goal
-        assert pose is not None and goal is not None
-        near = abs(pose.x - goal.x) < NEAR and abs(pose.y - goal.y) < NEAR
-        return near and abs(math.remainder(pose.theta - goal.theta, 2.0 * math.pi)) < ALIGNED
-
-    def _go_on(self, speed: float, turn: float, when_there: State) -> None:
-        if self._there():
-            self._state = when_there
-            speed = turn = 0.0
-        self._command(speed, turn)
-
-    def _stop(self, then: State, goal: Pose) -> None:
-        assert self._pose is not None
-        if self._pose.angular_velocity < STILL and self._pose.linear_velocity < STILL:
-            self.get_logger().info("Reached goal")
-            self._state = then
-            self._aim(goal)
+        goal = self._goal or self._aim(pose)
+        command = Twist()
+        if self._stopping:
+            if pose.angular_velocity < STILL and pose.linear_velocity < STILL:
+                self.get_logger().info("Reached goal")
+                self._turning, self._stopping = not self._turning, False
+                self._aim(pose)
+                return
         else:
-            self._command(0.0, 0.0)
+            near = abs(pose.x - goal.x) < NEAR and abs(pose.y - goal.y) < NEAR
+            self._stopping = near and abs(math.remainder(pose.theta - goal.theta, 2.0 * math.pi)) < ALIGNED
+            if not self._stopping and self._turning:
+                command.angular.z = TURN_SPEED
+            elif not self._stopping:
+                command.linear.x = SPEED
+        self._publisher.publish(command)
 
-    def _command(self, speed: float, turn: float) -> None:
-        message = Twist()
-        message.linear.x, message.angular.z = speed, turn
-        self._publisher.publish(message)
+    def _aim(self, pose: Pose) -> Pose:
+        """The next goal: a quarter turn to the left, or a side ahead."""
+        if self._turning:
+            goal = Pose(x=pose.x, y=pose.y, theta=math.remainder(pose.theta + math.pi / 2.0, 2.0 * math.pi))
+        else:
+            x, y = pose.x + SIDE * math.cos(pose.theta), pose.y + SIDE * math.sin(pose.theta)
+            goal = Pose(x=x, y=y, theta=pose.theta)
+        self.get_logger().info(f"New goal [{goal.x:f} {goal.y:f}, {goal.theta:f}]")
+        self._goal = goal
+        return goal
 
 
 class Mimic(Node):

@@ -329,17 +329,13 @@ def relays(
     for fields, right, words in pairs:
         before = len(answers)
         probe.publish(heard_on, heard_type, **fields)
-        if not probe.wait_for(_any_since(answers, before, right), 1.0):
+        if not probe.wait_for(lambda: any(right(each.message) for each in answers[before:]), 1.0):  # noqa: B023
             probe.raise_error()
             if len(answers) > before:
                 return Seen(False, f"{words}: {brief(answers[-1].message)} came", next_step)
             why = filter(None, (f"{words}: nothing came within 1 s", probe.unreturned()))
             return Seen(False, "; ".join(why), next_step)
     return Seen(True, ", ".join(words for _, _, words in pairs))
-
-
-def _any_since(answers: list[Heard], before: int, right: Callable[[Any], bool]) -> Callable[[], bool]:
-    return lambda: any(right(each.message) for each in answers[before:])
 
 
 def brief(message: Any) -> str:
