@@ -15,13 +15,15 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.qos import ReliabilityPolicy
 from rclpy.subscription import Subscription
 
 from ..lab.recorder import DEPTH, ON_A_ROBOT, ObstacleBoard, Recorder
 from ..lab.widgets.backend import FRAME, Clock, Loop
 
 if TYPE_CHECKING:
+    from rclpy.client import Client
+    from rclpy.timer import Timer
+
     from ..ros.sim.keyboard import Keyboard
 
 
@@ -30,6 +32,9 @@ BREATH = 0.02
 
 PATIENCE = 2.0
 """Seconds that the end of Python waits for the thread at most."""
+
+
+Action = Callable[..., object]
 
 
 class RobotBackend:
@@ -96,19 +101,19 @@ class RobotBackend:
                 self._closing.wait(BREATH)
         self._to_loop(self._leave)
 
-    def _hop(self, action: Callable[..., object], *arguments: Any) -> None:
-        if not self._closing.is_set():
-            self._to_loop(self._carry_out, action, arguments)
+    def _hop(self, action: Action, *arguments: Any) -> None:
+        def carry_out() -> None:
+            if not self.ended:
+                action(*arguments)
 
-    def _to_loop(self, action: Callable[..., object], *arguments: Any) -> None:
+        if not self._closing.is_set():
+            self._to_loop(carry_out)
+
+    def _to_loop(self, action: Callable[[], object]) -> None:
         try:
-            self.loop.soon(action, *arguments)
+            self.loop.soon(action)
         except RuntimeError:  # the loop is closed: Python is about to end, and takes care of the rest
             self._closing.set()
-
-    def _carry_out(self, action: Callable[..., object], arguments: tuple[Any, ...]) -> None:
-        if not self.ended:
-            action(*arguments)
 
     def _leave(self) -> None:
         """Take the node out of the graph. Not while the thread spins it."""
@@ -135,10 +140,6 @@ class RobotBackend:
 
 # -- the node: all its callbacks happen in one event loop, whichever thread it is spun in --------------------------------
 
-Action = Callable[..., object]
-Hop = Callable[..., object]
-"""Called with an action and its arguments, has the loop call that action."""
-
 LISTS = [
     name
     for name in dir(Node)
@@ -146,9 +147,6 @@ LISTS = [
 ]
 COUNTS = [name for name in dir(Node) if name.startswith("count_")]
 """What a node can be asked of the graph."""
-
-TELLS_TIMES = hasattr(Subscription, "CallbackType")
-"""Whether this rclpy gives a callback with two arguments the message's times: since Iron. Humble's only takes one."""
 
 
 class LabNode(Node):
@@ -161,10 +159,9 @@ class LabNode(Node):
     hears_times = True
     """Callbacks with two arguments are told a message's time, whatever the rclpy (see lab/recorder.py)."""
 
-    def __init__(self, context: Context, hop: Hop) -> None:
-        self._lab_hop = hop  # first, since a Node makes some things of its own while it is made
-        self._lab_lives: dict[Any, Life] = {}
-        self._lab_drawn: dict[Any, Callable[[list[Any]], object]] = {}
+    def __init__(self, context: Context, hop: Action) -> None:
+        self._lab_hop = hop  # called with an action and its arguments, has the loop call that action
+        self._lab_alive: dict[Any, Action] = {}  # what is called back by the loop, by the entity that it belongs to
         self._lab_unawaited = Unawaited()
         super().__init__(
             "_lab", context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
@@ -173,55 +170,88 @@ class LabNode(Node):
 
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Action, qos_profile: Any, *more: Any, **options: Any
-    ) -> Any:
+    ) -> Subscription:
         """As every node's, but `callback(message, info)` works everywhere; info has at least `source_timestamp` (ns).
 
-        What may be lost, a subscription of best effort, is only drawn: nothing is called when a message comes, but all that
-        have come are taken at each frame. Its callback has both arguments.
+        Nothing is called when a message comes, but all that have come are taken at each frame.
         """
-        life = Life(self._lab_hop)
-        hear = self._hearing(callback, life)
-        drawn = getattr(qos_profile, "reliability", None) == ReliabilityPolicy.BEST_EFFORT
-        if drawn:
-            options["callback_group"] = self._lab_unawaited
-        subscription = super().create_subscription(msg_type, topic, hear, qos_profile, *more, **options)
-        if drawn:
-            self._lab_drawn[subscription] = partial(life.hop, _hear, callback)
-        return self._keep(subscription, life)
+        hear = callback
+        with suppress(TypeError):
+            inspect.signature(callback).bind(object())
+            hear = lambda message, info: callback(message)  # noqa: E731
+        options["callback_group"] = self._lab_unawaited
+        subscription = super().create_subscription(msg_type, topic, lambda _: None, qos_profile, *more, **options)
+        self._lab_alive[subscription] = hear
+        return subscription
 
     def _take(self) -> None:
         """Take what has come since the last frame, in the spinning thread; the loop hears it, a topic in one go."""
-        for subscription, hear in list(self._lab_drawn.items()):
+        for subscription in [each for each in list(self._lab_alive) if isinstance(each, Subscription)]:
             take = partial(subscription.handle.take_message, subscription.msg_type, subscription.raw)
             with subscription.handle:  # raises where the loop has just destroyed it, which `_spin` knows
                 taken = list(islice(iter(take, None), DEPTH))
             if taken:
-                hear(taken)
+                self._lab_hop(self._hear, subscription, taken)
 
-    def create_timer(self, timer_period_sec: float, callback: Action, *more: Any, **options: Any) -> Any:
+    def _hear(self, subscription: Subscription, taken: list[tuple[Any, Any]]) -> None:
+        for message, info in taken:
+            if hear := self._lab_alive.get(subscription):
+                hear(message, info)
+
+    def create_timer(self, timer_period_sec: float, callback: Action, *more: Any, **options: Any) -> Timer:
         """As every node's. Ticks for which the loop had no time are left out, as an executor leaves them out."""
-        life = Life(self._lab_hop)
-        return self._keep(super().create_timer(timer_period_sec, _beating(callback, life), *more, **options), life)
+        waiting = False
 
-    def create_client(self, srv_type: Any, srv_name: str, *more: Any, **options: Any) -> Any:
+        @wraps(callback)  # newer rclpy looks whether the callback wants a TimerInfo, which it passes by keyword
+        def beat(**info: Any) -> None:
+            nonlocal waiting
+            if not waiting:
+                waiting = True
+                self._lab_hop(call, info)
+
+        def call(info: dict[str, Any]) -> None:
+            nonlocal waiting
+            waiting = False
+            if timer in self._lab_alive:
+                callback(**info)
+
+        timer = super().create_timer(timer_period_sec, beat, *more, **options)
+        self._lab_alive[timer] = callback
+        return timer
+
+    def create_client(self, srv_type: Any, srv_name: str, *more: Any, **options: Any) -> Client:
         """As every node's; its futures, too, call back in the loop."""
-        life = Life(self._lab_hop)
-        client: Any = super().create_client(srv_type, srv_name, *more, **options)
-        client.call_async = _asking(client.call_async, life)
-        return self._keep(client, life)
+        client = super().create_client(srv_type, srv_name, *more, **options)
+        ask: Callable[..., Any] = client.call_async
+
+        def call_async(request: Any) -> Any:
+            future = ask(request)
+            add = future.add_done_callback
+            future.add_done_callback = lambda action: add(lambda done: self._lab_hop(answered, action, done))
+            return future
+
+        def answered(action: Action, future: Any) -> None:
+            if client in self._lab_alive:
+                action(future)
+
+        client.call_async = call_async  # type: ignore[method-assign]
+        self._lab_alive[client] = call_async
+        return client
 
     def destroy_subscription(self, subscription: Any) -> bool:
         """As every node's."""
-        self._lab_drawn.pop(subscription, None)
-        return self._end(subscription) and super().destroy_subscription(subscription)
+        self._lab_alive.pop(subscription, None)
+        return super().destroy_subscription(subscription)
 
     def destroy_timer(self, timer: Any) -> bool:
         """As every node's."""
-        return self._end(timer) and super().destroy_timer(timer)
+        self._lab_alive.pop(timer, None)
+        return super().destroy_timer(timer)
 
     def destroy_client(self, client: Any) -> bool:
         """As every node's."""
-        return self._end(client) and super().destroy_client(client)
+        self._lab_alive.pop(client, None)
+        return super().destroy_client(client)
 
     def destroy_node(self) -> None:
         """As every node's. A later query of the graph, such as that of an old widget that is shown again, finds no nodes."""
@@ -230,27 +260,6 @@ class LabNode(Node):
             setattr(self, name, lambda *arguments, **options: [])
         for name in COUNTS:
             setattr(self, name, lambda *arguments, **options: 0)
-
-    def _keep(self, entity: Any, life: Life) -> Any:
-        self._lab_lives[entity] = life
-        return entity
-
-    def _end(self, entity: Any) -> bool:
-        """What it calls back comes no more. True, so that one can go on with `and`."""
-        life = self._lab_lives.pop(entity, None)
-        if life is not None:
-            life.over = True
-        return True
-
-    def _hearing(self, callback: Action, life: Life) -> Action:
-        """A callback that takes as many arguments as this rclpy looks for: whether one is enough is rclpy's own question."""
-        with suppress(TypeError):
-            inspect.signature(callback).bind(object())
-            return lambda message: life.hop(callback, message)
-        if TELLS_TIMES:
-            return lambda message, info: life.hop(callback, message, info)
-        clock = self.get_clock()  # read here, in the spinning thread: the loop may be busy for long
-        return lambda message: life.hop(callback, message, {"source_timestamp": clock.now().nanoseconds})
 
 
 class Unawaited(CallbackGroup):
@@ -266,54 +275,3 @@ class Unawaited(CallbackGroup):
 
     def ending_execution(self, entity: object) -> None:
         """Nothing was begun."""
-
-
-def _hear(callback: Action, taken: list[tuple[Any, Any]]) -> None:
-    for message, info in taken:
-        callback(message, info)
-
-
-class Life:
-    """The life of a subscription, a timer or a client: what it calls back hops to the loop, until it is over."""
-
-    def __init__(self, hop: Hop) -> None:
-        self._hop = hop
-        self.over = False
-
-    def hop(self, action: Action, *arguments: Any, **keywords: Any) -> None:
-        """Have the loop call the action, unless all is over by then."""
-        self._hop(self._call, action, arguments, keywords)
-
-    def _call(self, action: Action, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
-        if not self.over:
-            action(*arguments, **keywords)
-
-
-def _beating(callback: Action, life: Life) -> Action:
-    """`wraps`, since newer rclpy looks whether the callback wants a TimerInfo, which it passes by keyword."""
-    waiting = False
-
-    @wraps(callback)
-    def beat(**info: Any) -> None:
-        nonlocal waiting
-        if not waiting:
-            waiting = True
-            life.hop(call, **info)
-
-    def call(**info: Any) -> None:
-        nonlocal waiting
-        waiting = False
-        callback(**info)
-
-    return beat
-
-
-def _asking(ask: Callable[..., Any], life: Life) -> Callable[..., Any]:
-    @wraps(ask)
-    def call_async(*request: Any, **options: Any) -> Any:
-        future = ask(*request, **options)
-        add = future.add_done_callback
-        future.add_done_callback = lambda action: add(lambda done: life.hop(action, done))
-        return future
-
-    return call_async
