@@ -85,13 +85,6 @@ def test_github_classroom(tmp_path: Path) -> None:
     assert learners(tmp_path) == learners(tmp_path / "week-1-submissions") == expected
 
 
-def test_clones_side_by_side(tmp_path: Path) -> None:
-    clones = ("week-1-ann-b/", "week-1-anna/")
-    place = lay_out(tmp_path / "clones", *(f"{clone}{each}" for clone in clones for each in (".git/HEAD", PAGE)))
-    assert learners(place) == [("ann-b", PAGE), ("anna", PAGE)]
-    assert learners(place / "week-1-anna") == [("", PAGE)], "a checkout in which the copies lie says nothing of them"
-
-
 def test_an_unknown_layout_names_nobody(tmp_path: Path) -> None:
     lay_out(tmp_path, f"b/{PAGE}", f"a/{PAGE}", f"submitted/anna/{PAGE}", f"class-1/{PAGE}", f"class-2/{PAGE}")
     found = find([tmp_path])

@@ -77,10 +77,6 @@ def connected(client: Any, patience: float = PATIENCE) -> tuple[Client, bool]:
             raise ExperimentError(
                 f"this client is {client.status}, so it has no cluster any more: make a new Client(…)"
             )
-        if client.asynchronous:
-            raise ExperimentError(
-                "client= needs a client that waits for answers: make it by Client(…) without asynchronous=True"
-            )
         return client, False
     try:
         if isinstance(client, str):  # a Client that cannot connect complains once more when it is collected

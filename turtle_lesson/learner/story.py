@@ -148,11 +148,8 @@ def _sources(page: str, still_open: tuple[str, ...]) -> Iterator[str]:
 @cache
 def _code_cells(page: str) -> list[tuple[str, list[str], str]]:
     """Of each code cell of a published page: the exercise that it belongs to, or "", its tags and its source."""
-    file = PUBLISHED / f"{page}.ipynb"
-    if not file.is_file():
-        raise FileNotFoundError(f"the published page {file.name} is missing: it would be in {PUBLISHED}")
     found = []
-    for cell in json.loads(file.read_text(encoding="utf-8"))["cells"]:
+    for cell in json.loads((PUBLISHED / f"{page}.ipynb").read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "code":
             metadata = cell["metadata"]
             exercise = metadata.get("turtle_lesson", {}).get("exercise", "")

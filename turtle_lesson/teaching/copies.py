@@ -2,7 +2,7 @@
 and what a copy that is graded gets of the machine.
 
 Three layouts are understood: nbgrader's `submitted/STUDENT/ASSIGNMENT/`; Moodle's `NAME_NUMBER_assignsubmission_file/`, or the
-same before each file's name; GitHub Classroom's `ASSIGNMENT-submissions/ASSIGNMENT-USER/`, or such clones side by side.
+same before each file's name; GitHub Classroom's `ASSIGNMENT-submissions/ASSIGNMENT-USER/`.
 """
 
 from __future__ import annotations
@@ -18,8 +18,6 @@ import zlib
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from itertools import takewhile
 from pathlib import Path
 from threading import Thread
 
@@ -131,18 +129,7 @@ def _owner(path: Path, root: Path) -> tuple[Path, str, str]:
         assignment = part.removesuffix(CLONED)
         if assignment != part and parts[index + 1].startswith(f"{assignment}-"):
             return Path(*parts[: index + 1]), parts[index + 1].removeprefix(f"{assignment}-"), ""
-    for clone in path.parents[: len(parts) - len(root.parts) - 1]:
-        if (clone / ".git").exists() and (assignment := _assignment(clone.parent)):
-            return clone.parent, clone.name.removeprefix(f"{assignment}-"), ""
     return path, "", ""
-
-
-@lru_cache(maxsize=64)
-def _assignment(place: Path) -> str:
-    """What the names of all clones in a folder have in common before a hyphen; "" if there are not several, or nothing."""
-    words = [each.name.split("-") for each in place.iterdir() if (each / ".git").exists()]
-    same = takewhile(lambda each: len(set(each)) == 1, zip(*(each[:-1] for each in words), strict=False))
-    return "-".join(each[0] for each in same) if len(words) > 1 else ""
 
 
 # -- what a copy gets of the machine -----------------------------------------------------------------------------------

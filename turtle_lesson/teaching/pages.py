@@ -36,10 +36,6 @@ def read(path: Path) -> nbformat.NotebookNode:
     """The notebook in a file. Raises PageError, which says why it cannot be read."""
     try:
         text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise PageError(f"{path} does not exist") from None
-    except IsADirectoryError:
-        raise PageError(f"{path} is a folder; name the notebook in it") from None
     except OSError as error:
         raise PageError(f"{path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
@@ -85,8 +81,6 @@ def reset(path: Path, published: str | bytes) -> Path | None:
     if path.exists():
         kept = unused(path, "mine")
         shutil.copy2(path, kept)
-    elif not path.parent.is_dir():
-        raise PageError(f"{path.parent} does not exist")
     path.write_bytes(content)
     return kept
 
@@ -128,8 +122,6 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
         raise PageError(
             f"{target} already exists, and nothing is ever overwritten: choose another name with --to"
         ) from None
-    except OSError as error:
-        raise PageError(f"{target} cannot be written: {error.strerror}") from None
     return target, removed
 
 
