@@ -187,8 +187,9 @@ class LabNode(Node):
     def _take(self) -> None:
         """Take what has come since the last frame, in the spinning thread; the loop hears it, a topic in one go."""
         for subscription in [each for each in list(self._lab_alive) if isinstance(each, Subscription)]:
-            take = partial(subscription.handle.take_message, subscription.msg_type, subscription.raw)
-            with subscription.handle:  # raises where the loop has just destroyed it, which `_spin` knows
+            handle: Any = subscription.handle  # of the real rclpy
+            take = partial(handle.take_message, subscription.msg_type, subscription.raw)
+            with handle:  # raises where the loop has just destroyed it, which `_spin` knows
                 taken = list(islice(iter(take, None), DEPTH))
             if taken:
                 self._lab_hop(self._hear, subscription, taken)
