@@ -177,7 +177,7 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
     assert capsys.readouterr().out == SAID
     assert len(results) == 29 and results.missing == 11 and [row["run"] for row in results.failed] == [28]
     assert results.smallest == {"loss": 0.2, "driver": "hasty"}
-    runs, swept = plan(breaks, range(5), SWEEP)
+    runs, swept = plan(range(5), SWEEP)
     endings, smallest = search_failure(Backwards(), runs, swept)
     assert capsys.readouterr().out == SAID
     assert [(run.number, ending.outcome) for run, ending in endings] == [
@@ -187,7 +187,7 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
 
 
 def test_nothing_that_fails_is_said(capsys: pytest.CaptureFixture[str]) -> None:
-    runs, swept = plan(breaks, range(3), {"loss": [0.1]})
+    runs, swept = plan(range(3), {"loss": [0.1]})
     endings, smallest = search_failure(Backwards(), runs, swept)
     assert capsys.readouterr().out == "None of the 3 runs failed.\n"
     assert len(endings) == 3 and smallest is None

@@ -81,7 +81,8 @@ def experiment(
     Raises ExperimentError, a ValueError, for an experiment that cannot be carried out.
     """
     _check_place()
-    runs, swept = plan(function, seeds, parameters)
+    _check_function(function, parameters)
+    runs, swept = plan(seeds, parameters)
     world = checked_world(package, distro, start_order)
     check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
     if until not in (None, "failure"):
@@ -118,8 +119,8 @@ def replay(
     ExperimentError for a run that cannot be carried out.
     """
     _check_place()
-    given = {name: [value] for name, value in parameters.items()}
-    runs, swept = plan(function, [seed], given)
+    _check_function(function, parameters)
+    runs, swept = plan([seed], {name: [value] for name, value in parameters.items()})
     check_limits(None, robot_time=robot_time)
     world = checked_world(package, distro, start_order)
     setting = setting_for(function, simulator=simulator, robot_time=robot_time, **world)
@@ -180,9 +181,8 @@ def search_failure(
 # -- the plan ------------------------------------------------------------------------------------------------------------
 
 
-def plan(function: Callable[..., Any], seeds: Iterable[int], parameters: dict[str, Any]) -> tuple[list[Run], list[str]]:
+def plan(seeds: Iterable[int], parameters: dict[str, Any]) -> tuple[list[Run], list[str]]:
     """The runs of an experiment in their order, and the names of what is swept. Raises ExperimentError."""
-    _check_function(function, parameters)
     swept = {name: _values(name, values) for name, values in parameters.items()}
     combined = itertools.product(*swept.values(), _seeds(seeds))
     runs = [Run(number, seed, dict(zip(swept, values, strict=True))) for number, (*values, seed) in enumerate(combined)]
@@ -208,6 +208,12 @@ def _values(name: str, values: Any) -> list[Any]:
     found = [plain(value) for value in (values if isinstance(values, (list, range)) else [values])]
     if not found:
         raise ExperimentError(f"{name} has no values, so there is nothing to run: try {name}=[1.0, 2.0]")
+    for value in found:
+        if not _is_plain(value):
+            raise ExperimentError(
+                f"{name} must be numbers, texts, True, False, None or tuples of these, got {value!r:.80} "
+                f"({type(value).__name__})"
+            )
     return found
 
 
@@ -236,22 +242,21 @@ def _check_function(function: Callable[..., Any], parameters: dict[str, Any]) ->
     own = [each for each in known if each in inspect.signature(experiment).parameters]
     if own:
         raise ExperimentError(f"{name} has a parameter {own[0]!r}, as experiment() itself has: give it another name")
-    for each in parameters:
-        if each not in known and accepted[-1].kind is not kinds.VAR_KEYWORD:
-            there = did_you_mean(each, known) or f"It has {enumerated(known)}."
-            raise ExperimentError(f"{name} has no parameter {each!r}. {there}")
+    if accepted[-1].kind is not kinds.VAR_KEYWORD:
+        check_names(name, parameters, known)
     for parameter in accepted[1:]:
         if parameter.name in known and parameter.default is kinds.empty and parameter.name not in parameters:
             raise ExperimentError(
                 f"{name} needs a value of {parameter.name!r}: add {parameter.name}=[…] with the values to try"
             )
-    for each, values in parameters.items():
-        for value in _values(each, values):
-            if not _is_plain(value):
-                raise ExperimentError(
-                    f"{each} must be numbers, texts, True, False, None or tuples of these, got {value!r:.80} "
-                    f"({type(value).__name__})"
-                )
+
+
+def check_names(function: str, parameters: Iterable[str], known: list[str]) -> None:
+    """Raise ExperimentError for a parameter that the function of this name does not have."""
+    for each in parameters:
+        if each not in known:
+            there = did_you_mean(each, known) or f"It has {enumerated(known)}."
+            raise ExperimentError(f"{function} has no parameter {each!r}. {there}")
 
 
 def _is_plain(value: Any) -> bool:

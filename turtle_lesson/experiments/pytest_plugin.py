@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from .experiment import check_limits, checked_world, plan
+from .experiment import check_limits, check_names, checked_world, plan
 from .one_run import ExperimentError, Run, Setting, open_run
 from .replay import Surroundings
 
@@ -90,28 +90,15 @@ def _places(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Plac
     package, root = setting["package"], metafunc.config.rootpath  # wherever pytest was started
     if isinstance(package, (str, Path)) and (root / package).is_dir():
         setting["package"] = root / package
-    runs, swept = plan(_template(metafunc), seeds, given)
+    accepted = inspect.signature(metafunc.function).parameters
+    check_names(metafunc.function.__name__, given, [name for name in accepted if name not in ("self", "lesson")])
+    runs, swept = plan(seeds, given)
     setting |= checked_world(*(setting[name] for name in WORLD))
     check_limits(None, robot_time=setting["robot_time"])
     for name in given:
-        if inspect.signature(metafunc.function).parameters[name].default is not inspect.Parameter.empty:
+        if accepted[name].default is not inspect.Parameter.empty:
             raise ExperimentError(f"{name} has a default, which pytest never replaces: leave =… out in the parameters")
     return [Place(run, Setting(b"", **setting)) for run in runs], swept
-
-
-def _template(metafunc: pytest.Metafunc) -> Any:
-    """A function whose parameters are those of the test that a mark may give values: `plan` checks names by it."""
-
-    def function(lesson: object) -> None:
-        """Stand for the test."""
-
-    kind = inspect.Parameter.KEYWORD_ONLY
-    taken = [name for name in inspect.signature(metafunc.function).parameters if name not in ("self", "lesson")]
-    parameters = [inspect.Parameter(name, kind, default=None) for name in taken]
-    first = inspect.Parameter("lesson", inspect.Parameter.POSITIONAL_ONLY)
-    function.__name__ = metafunc.function.__name__
-    function.__signature__ = inspect.Signature([first, *parameters])  # type: ignore[attr-defined]
-    return function
 
 
 @pytest.fixture

@@ -156,25 +156,19 @@ def _parts(source: str) -> list[tuple[str, str, str]]:
     """A cell's code up to each check that is due, the name of the lesson there, and the check's; "" for none at the end."""
     if NO_PYTHON.match(source):
         return [(source, "", "")]
-    parts, lines = [], list[str]()
-
-    def add(variable: str = "", name: str = "") -> None:
-        code = "\n".join(lines)
-        found = DUE.findall(code)
-        parts.append((code, *((found[0][0], found[0][1] or "trouble") if found else (variable, name))))
-        parts.extend(("", each, check or "trouble") for each, check in found[1:])
-        if found and name:
-            parts.append(("", variable, name))
-        lines.clear()
-
-    for line in source.splitlines():
-        if alone := ALONE.match(line):
-            add(alone[1], alone[2])
-        else:
+    parts, lines = list[tuple[str, str, str]](), list[str]()
+    for line in [*source.splitlines(), None]:
+        alone = None if line is None else ALONE.match(line)
+        if line is not None and alone is None:
             lines.append(line)
-    if lines:
-        add()
-    return parts
+            continue
+        code = "\n".join(lines)
+        due = [(variable, name or "trouble") for variable, name in DUE.findall(code)]
+        due += [(alone[1], alone[2])] if alone else []
+        parts.append((code, *(due or [("", "")])[0]))
+        parts += [("", *each) for each in due[1:]]
+        lines.clear()
+    return [part for part in parts if any(part)]
 
 
 class Kernel:
