@@ -128,10 +128,11 @@ def test_workers_with_another_lesson_are_refused(place: Path, address: str, caps
 @pytest.mark.parametrize(
     ("answer", "said"),
     [
-        (ModuleNotFoundError("No module named 'turtle_lesson'"), "but tcp://a has none"),
-        (ModuleNotFoundError("No module named 'turtle_lesson.teaching.cluster'"), "but tcp://a has an older one"),
         (("9.9.9", "lesson"), "but tcp://a has version 9.9.9"),
-        (ModuleNotFoundError("No module named 'numpy'"), "but tcp://a answers: No module named 'numpy'"),
+        (
+            ModuleNotFoundError("No module named 'turtle_lesson'"),
+            "but tcp://a answers: No module named 'turtle_lesson'",
+        ),
     ],
 )
 def test_what_a_worker_lacks_is_said(answer: Any, said: str) -> None:

@@ -118,10 +118,8 @@ def _check_workers(client: Client, lesson: str) -> None:
     found_there = answers(client, lambda: import_module(HERE).own_lesson(), CONNECTING)
     own, wrong = own_lesson()[0], []
     for worker, found in sorted(found_there.items()):
-        if isinstance(found, Exception) and "No module named 'turtle_lesson" not in str(found):
+        if isinstance(found, Exception):
             wrong.append(f"{worker} answers: {found}")
-        elif isinstance(found, Exception):
-            wrong.append(f"{worker} has none" if "'turtle_lesson'" in str(found) else f"{worker} has an older one")
         elif found != (own, lesson):
             other = f"version {found[0]}" if found[0] != own else "other files of the same version"
             wrong.append(f"{worker} has {other}")
