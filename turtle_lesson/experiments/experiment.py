@@ -90,7 +90,14 @@ def experiment(
     setting = setting_for(function, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time, **world)
     about = described(function, setting, world)
     smallest = None
-    with closing(_open_pool(setting, len(runs), jobs, client)) as pool:
+    pool: LocalPool | ClusterPool
+    if client is None:
+        pool = LocalPool(setting, min(jobs or defaults.get().jobs or cores(), len(runs)))
+    else:
+        from .cluster import ClusterPool  # here, since Dask is optional, and takes long to import
+
+        pool = ClusterPool(setting, client)
+    with closing(pool):
         if until is None:
             endings = carry_out(pool, runs)
         else:
@@ -126,14 +133,6 @@ def replay(
     setting = setting_for(function, simulator=simulator, robot_time=robot_time, **world)
     table = Results([], swept)
     return Replay(setting, runs[0], lambda ending: table.row_of(runs[0], ending))
-
-
-def _open_pool(setting: one_run.Setting, runs: int, jobs: int | None, client: Any) -> LocalPool | ClusterPool:
-    if client is None:
-        return LocalPool(setting, min(jobs or defaults.get().jobs or cores(), runs))
-    from .cluster import ClusterPool
-
-    return ClusterPool(setting, client)
 
 
 def carry_out(

@@ -164,7 +164,7 @@ class Replay:
         """How the run ended, in a sentence, and how that compares with the table."""
         ending = self._ending
         assert ending is not None
-        if self.interrupted:
+        if ending.error.startswith("KeyboardInterrupt"):
             return "was interrupted in the middle of its own code, so it is no replay any more: open it anew."
         how = "" if ending.outcome == OK else f": {ending.error or ending.outcome}"
         at = f"ended at {number(ending.robot_time or 0.0, 3)} s"
@@ -181,23 +181,26 @@ class Replay:
             "The function, or something that it uses, has changed since then."
         )
 
-    @property
-    def interrupted(self) -> bool:
-        """Whether the function's own code had to be interrupted, so that this is not the run any more."""
-        return self._ending is not None and self._ending.error.startswith("KeyboardInterrupt")
-
 
 def replay_of(results: Results, wanted: int | None, function: Callable[..., Any] | None) -> Replay:
     """Open a run of a table. Raises ExperimentError where that cannot be."""
-    row, setting = _row_of(results, wanted), results.setting
-    run = results.runs[row["run"]]
+    rows = {row["run"]: row for row in results.rows}
+    if wanted is None:
+        wanted = next((row["run"] for row in results.failed), None)
+        if wanted is None:
+            raise ExperimentError("no run of this table has failed: say which one to open, as in results.replay(0)")
+    if wanted not in rows:
+        raise ExperimentError(f"there is no run {wanted!r} in this table: it has {enumerated(map(str, rows))}")
+    row, run, setting = rows[wanted], results.runs[wanted], results.setting
     assert results.function is not None and setting is not None
     if function is not None:
         simulator, limit = setting.simulator, setting.robot_time
         setting = setting_for(function, simulator=simulator, robot_time=limit, **results.about["world"])
         now, what = function, "it is replayed as it is now, and may end otherwise."
     else:
-        now, what = _as_it_is_now(results.function), "it is replayed as it was then."
+        module = sys.modules.get(getattr(results.function, "__module__", ""))  # what its name means there now
+        now = getattr(module, getattr(results.function, "__qualname__", ""), results.function)
+        what = "it is replayed as it was then."
     if results.about["function"] != f"{name_of(now)} {hash_of(now)}":
         print(f"{name_of(now)}, or something that it uses, has changed since this experiment; {what}")
     if row["outcome"] == DIED:
@@ -205,25 +208,6 @@ def replay_of(results: Results, wanted: int | None, function: Callable[..., Any]
     if row["outcome"] == CPU_TIME:
         print(f"Run {run.number} computed for too long. Nothing limits that here; the stop button interrupts it.")
     return Replay(setting, run, lambda ending: results.row_of(run, ending), row)
-
-
-def _row_of(results: Results, wanted: int | None) -> dict[str, Any]:
-    if wanted is None:
-        if not results.failed.rows:
-            raise ExperimentError("no run of this table has failed: say which one to open, as in results.replay(0)")
-        return results.failed.rows[0]
-    for row in results.rows:
-        if row["run"] == wanted:
-            return row
-    there = enumerated(str(row["run"]) for row in results.rows)
-    raise ExperimentError(f"there is no run {wanted!r} in this table: it has {there}")
-
-
-def _as_it_is_now(function: Callable[..., Any]) -> Callable[..., Any]:
-    """What its name means in the notebook now."""
-    module = sys.modules.get(getattr(function, "__module__", ""))
-    now = getattr(module, getattr(function, "__qualname__", ""), function)
-    return now if callable(now) else function
 
 
 class Surroundings:

@@ -54,7 +54,14 @@ class TroubleEnvironment:
         sourced = list(dict.fromkeys(each.install for each in overlays(world)))
         self._sourced = world.notebook.state(_SourcedBefore, sourced)
         if "robot_draft" not in world.packages:
-            world.packages.add(Package("robot_draft", DRAFTS, executables=_draft_programs()))
+            programs: dict[str, Target] = {path.stem: path for path in DRAFTS.glob("navigator_*.py")}
+            for node in SMALL_NODES:
+                name, code = (
+                    module_name(node).removeprefix("_"),
+                    f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n",
+                )
+                programs[name] = PythonProgram(DRAFTS / name, (), code)
+            world.packages.add(Package("robot_draft", DRAFTS, executables=programs))
 
     @property
     def ended(self) -> bool:
@@ -143,14 +150,6 @@ class TroubleEnvironment:
             self._world.packages.remove(self._world.packages.get(PACKAGE))
         if PACKAGE in registry.packages():
             registry.remove(PACKAGE)
-
-
-def _draft_programs() -> dict[str, Target]:
-    programs: dict[str, Target] = {path.stem: path for path in DRAFTS.glob("navigator_*.py")}
-    for node in SMALL_NODES:
-        name = module_name(node).removeprefix("_")
-        programs[name] = PythonProgram(DRAFTS / name, (), f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n")
-    return programs
 
 
 def remove_scratch() -> None:

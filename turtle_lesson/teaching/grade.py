@@ -180,9 +180,15 @@ def in_words(graded: Sequence[Graded]) -> str:
     for copy, name in zip(graded, names, strict=True):
         lines += ["", f"{name.ljust(wide)}  {copy.earned:3} of {copy.points:3} points  {copy.page}".rstrip()]
         widest = max((len(score.name) for score in copy.scores), default=0)
-        lines += [_short(f"  {MARKS[score.state]} {score.name.ljust(widest)}  {_of(score)}") for score in copy.scores]
+        for score in copy.scores:
+            why = "it was not run" if score.state == "not run" else plain(score.first_miss)
+            points = f"{score.earned:2} of {score.points:2}  {why}".rstrip()
+            lines.append(_short(f"  {MARKS[score.state]} {score.name.ljust(widest)}  {points}"))
         lines += [_short(f"  ! {plain(each)}") for each in filter(None, [copy.problem, *copy.errors])]
-    return "\n".join([*lines, "", _sum(graded)]).lstrip("\n")
+    done = sum(bool(copy.points) and copy.earned == copy.points for copy in graded)
+    failed = sum(bool(copy.problem) for copy in graded)
+    not_run = f", {failed} not run to the end" if failed else ""
+    return "\n".join([*lines, "", f"{len(graded)} graded, {done} with all points{not_run}."]).lstrip("\n")
 
 
 def in_a_line(copy: Graded) -> str:
@@ -201,22 +207,10 @@ def _in_line(text: str) -> str:
     return " ".join(plain(text).split())
 
 
-def _of(score: CheckScore) -> str:
-    why = "it was not run" if score.state == "not run" else plain(score.first_miss)
-    return f"{score.earned:2} of {score.points:2}  {why}".rstrip()
-
-
 def _short(line: str) -> str:
     indent = line[: len(line) - len(line.lstrip())]
     line = indent + " ".join(line.split("\n")).strip()
     return indent + textwrap.shorten(line.strip(), WIDTH - len(indent), placeholder=" …") if len(line) > WIDTH else line
-
-
-def _sum(graded: Sequence[Graded]) -> str:
-    done = sum(bool(copy.points) and copy.earned == copy.points for copy in graded)
-    failed = sum(bool(copy.problem) for copy in graded)
-    words = [f"{len(graded)} graded", f"{done} with all points"]
-    return ", ".join(words + ([f"{failed} not run to the end"] if failed else [])) + "."
 
 
 def as_json(graded: Sequence[Graded]) -> dict[str, Any]:

@@ -62,20 +62,14 @@ def _look(question: dict[str, Any], names: dict[str, Any], before: dict[str, Mod
     new = {name.removeprefix("turtle_lesson."): sys.modules[name] for name in question["modules"]}
     if CASES in before:
         new["lab.troubles.cases"].carry_over(before[CASES])
-    lessons = [each for each in (names.get(question["variable"]), *reversed(names.values())) if _is_lesson(each)]
+    kind = getattr(sys.modules.get("turtle_lesson.session.lesson"), "Lesson", None)
+    lessons = [each for each in (names.get(question["variable"]), *reversed(names.values())) if type(each) is kind]
     if not lessons:
         return []
     place = new["session.check_target"].CheckTarget(lessons[0]._world, lessons[0]._recording, lessons[0]._board)
     checks = new["lab.checks.registry"]
     rows: list[dict[str, str]] = checks.run(checks.find(question["check"]), place).figures()["rows"]
     return rows
-
-
-def _is_lesson(value: Any) -> bool:
-    return (
-        "turtle_lesson.session.lesson" in sys.modules
-        and type(value) is sys.modules["turtle_lesson.session.lesson"].Lesson
-    )
 
 
 class _Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
