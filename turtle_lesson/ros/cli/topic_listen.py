@@ -7,11 +7,13 @@ import time
 from argparse import Namespace
 from array import array
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 from ..runtime.world import current_process
+from ..sim.simulation import EPOCH
+from ..sim.simulation import NANOSECONDS as SECOND
 from .arguments import NODE, NODE_WITHOUT_DAEMON, Argument, arg, duration, flag, positive_int, unsigned_int
 from .typed_values import class_of, is_chosen, matching_profile, profile_of, qos_arguments
 from .verb import (
@@ -30,6 +32,7 @@ from .verb import (
 )
 
 if TYPE_CHECKING:
+    from rclpy.event_handler import QoSMessageLostInfo
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
     from rclpy.task import Future
@@ -72,25 +75,31 @@ PRESET = "sensor_data"
 def echo(args: Namespace) -> None:
     """Print the messages of a topic."""
     from rclpy.task import Future
+    from rosidl_runtime_py.convert import message_to_csv, message_to_yaml
 
-    if args.lost_messages:
-        print("WARNING: '--lost-messages' is deprecated; lost messages are reported by default", file=sys.stderr)
     done = Future() if args.once else None
     path = [name for name in (args.field or "").split(".") if name]
     if args.field is not None and not path:
         raise CommandError(f"Invalid field value '{args.field}'")
     wanted = filter_of(args.filter_expr)
-    show = _printer(args)
+    length = None if args.full_length else args.truncate_length
+    style = {"truncate_length": length, "no_arr": args.no_arr, "no_str": args.no_str}
 
     def print_message(message: Any) -> None:
         part = part_of(message, path)
         if not wanted(part):
             return
-        show(part)
+        is_message = hasattr(part, "get_fields_and_field_types")
+        if args.csv:
+            print(message_to_csv(part, **style) if is_message else part)
+        elif not is_message:
+            print(part, end="\n---\n")
+        else:
+            print(message_to_yaml(part, **style, flow_style=args.flow_style), end="---\n")
         if done is not None and not done.done():
             done.set_result(True)
 
-    def print_lost(event: Any) -> None:
+    def print_lost(event: QoSMessageLostInfo) -> None:
         counts = f"total count change:{event.total_count_change}\n\ttotal count: {event.total_count}"
         print(f"A message was lost!!!\n\t{counts}", end="---\n")
 
@@ -139,25 +148,6 @@ def filter_of(expression: str | None) -> Callable[[Any], bool]:
     return passes
 
 
-def _printer(args: Namespace) -> Callable[[Any], None]:
-    """What prints a message or a part of one."""
-    from rosidl_runtime_py.convert import message_to_csv, message_to_yaml
-
-    length = None if args.full_length else args.truncate_length
-    style = {"truncate_length": length, "no_arr": args.no_arr, "no_str": args.no_str}
-
-    def show(part: Any) -> None:
-        is_message = hasattr(part, "get_fields_and_field_types")
-        if args.csv:
-            print(message_to_csv(part, **style) if is_message else part)
-        elif not is_message:
-            print(part, end="\n---\n")
-        else:
-            print(message_to_yaml(part, **style, flow_style=args.flow_style), end="---\n")
-
-    return show
-
-
 # -- listening to a topic: finding its type, and saying why nothing comes ----------------------------------------------
 
 LOOK_AGAIN = 0.1
@@ -178,20 +168,17 @@ def class_of_topic(node: Node, topic: str) -> Any:
 
 def wait_for_class(node: Node, topic: str, seconds: float | None) -> Any:
     """The class of a topic's messages; if no node uses the topic, waits so long for one that does."""
-    kind = class_of_topic(node, topic)
-    if kind is not None:
-        return kind
-    print(NOT_PUBLISHED.format(topic))
-    deadline = None if seconds is None else now() + seconds
-    while kind is None:
-        if deadline is not None and now() >= deadline:
+    begun = now()
+    while (kind := class_of_topic(node, topic)) is None:
+        if now() == begun:
+            print(NOT_PUBLISHED.format(topic))
+        if seconds is not None and now() >= begun + seconds:
             raise CommandError(*why_silent(node, topic, None, seconds))
         time.sleep(LOOK_AGAIN)
-        kind = class_of_topic(node, topic)
     return kind
 
 
-def why_silent(node: Node, topic: str, kind: Any, seconds: float | None) -> tuple[str, str]:
+def why_silent(node: Node, topic: str, kind: Any, seconds: float) -> tuple[str, str]:
     """Why no message has come for so long (s), and a hint. `kind` is the class that was listened for."""
     name = expanded(node, topic)
     known = [each for each in topics(node, include_hidden=True) if publishers(node, each)]
@@ -251,88 +238,71 @@ def listen(
 # What is counted when follows recordings of the real tools: `hz` reports at a message that comes a second or more
 # after the last report, `bw` and `delay` report every second.
 
-SECOND = 1_000_000_000
+WINDOW = "How many messages to average over (default: %(default)s)"
 
 
-class Measure:
-    """Looks at what is heard on a topic, as messages or `raw` bytes, and prints what comes of it; `begin` first."""
-
-    about = ""
-    raw = False
-    begin = ""
-
-    def __init__(self, args: Namespace) -> None:
-        self.values: deque[Any] = deque(maxlen=args.window)
-
-    def count(self, message: Any) -> None:
-        """A message comes now."""
-        raise NotImplementedError
-
-    def report(self) -> None:
-        """Print what there is to say; called every second."""
-
-    def print_times(self, title: Callable[[float], str]) -> None:
-        """Print what the mean of the times (ns) amounts to, and their least, greatest and standard deviation."""
-        mean = sum(self.values) / len(self.values)
-        deviation = sqrt(sum((value - mean) ** 2 for value in self.values) / len(self.values))
-        least, greatest = min(self.values) / SECOND, max(self.values) / SECOND
-        print(
-            f"{title(mean / SECOND)}\n\tmin: {least:.3f}s max: {greatest:.3f}s "
-            f"std dev: {deviation / SECOND:.5f}s window: {len(self.values)}"
-        )
+def _window(messages: int) -> Argument:
+    return arg("--window -w", WINDOW, metavar="WINDOW", type=positive_int, default=messages)
 
 
 def _now() -> int:
     return current_process().simulation.now
 
 
-class Rate(Measure):
-    """How often messages come that pass a filter."""
+@verb(
+    "topic hz",
+    arg("topic_name", "Name of the topic, such as /turtle1/pose"),
+    _window(10_000),
+    arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR"),
+    flag("--wall-time", "Accepted; there is only one clock here", dest="use_wtime"),
+    *NODE_WITHOUT_DAEMON,
+    duration(),
+)
+def hz(args: Namespace) -> None:
+    """How many messages a second arrive on a topic."""
+    wanted = filter_of(args.filter_expr)
+    gaps: deque[int] = deque(maxlen=args.window)
+    last: int | None = None
+    printed: int | None = None
 
-    about = "How many messages a second arrive on a topic"
-
-    def __init__(self, args: Namespace) -> None:
-        super().__init__(args)
-        self._wanted = filter_of(args.filter_expr)
-        self._last: int | None = None
-        self._printed: int | None = None
-
-    def count(self, message: Any) -> None:
-        """A message comes now: it may be the one to report at."""
-        if not self._wanted(message):
+    def count(message: Any) -> None:
+        nonlocal last, printed
+        if not wanted(message):
             return
         time = _now()
-        if self._last is not None:
-            self.values.append(time - self._last)
-        self._last = time
-        if self.values and self._printed is None:
-            self._printed = time
-        elif self._printed is not None and time >= self._printed + SECOND:
-            self._printed = time
-            self.print_times(lambda mean: f"average rate: {1 / mean if mean else 0:.3f}")
+        if last is not None:
+            gaps.append(time - last)
+        last = time
+        if gaps and printed is None:
+            printed = time
+        elif printed is not None and time >= printed + SECOND:
+            printed = time
+            _print_times(lambda mean: f"average rate: {1 / mean if mean else 0:.3f}", gaps)
+
+    _measure(args, args.topic_name, count)
 
 
-class Bandwidth(Measure):
-    """How many bytes come a second."""
+@verb(
+    "topic bw",
+    arg("topic", "Name of the topic, such as /turtle1/pose"),
+    _window(100),
+    *NODE_WITHOUT_DAEMON,
+    duration(),
+)
+def bw(args: Namespace) -> None:
+    """How many bytes a second arrive on a topic."""
+    heard: deque[tuple[int, int]] = deque(maxlen=args.window)  # when (ns), and how many bytes
 
-    about = "How many bytes a second arrive on a topic"
-    raw = True
-    begin = "Subscribed to [{}]\n"
-
-    def count(self, message: bytes) -> None:
-        """So many bytes come now."""
-        self.values.append((_now(), len(message)))
-
-    def report(self) -> None:
-        """Print, if there is enough to say."""
-        if len(self.values) < 2:
+    def report() -> None:
+        if len(heard) < 2:
             return
-        sizes = [size for _, size in self.values]
-        rate = sum(sizes) * SECOND / (_now() - self.values[0][0])
-        shown = [_bytes(size, rate) for size in (rate, sum(sizes) / len(sizes), min(sizes), max(sizes))]
-        print(
-            f"{shown[0]}/s from {len(sizes)} messages\n\tMessage size mean: {shown[1]} min: {shown[2]} max: {shown[3]}"
-        )
+        sizes = [size for _, size in heard]
+        rate = sum(sizes) * SECOND / (_now() - heard[0][0])
+        mean, least, most = (_bytes(size, rate) for size in (sum(sizes) / len(sizes), min(sizes), max(sizes)))
+        print(f"{_bytes(rate, rate)}/s from {len(sizes)} messages")
+        print(f"\tMessage size mean: {mean} min: {least} max: {most}")
+
+    _measure(args, args.topic, lambda message: heard.append((_now(), len(message))), report, raw=True)
 
 
 def _bytes(size: float, rate: float) -> str:
@@ -342,53 +312,58 @@ def _bytes(size: float, rate: float) -> str:
     return f"{size / 1e3:.2f} KB" if rate < 1e6 else f"{size / 1e6:.2f} MB"
 
 
-class Delay(Measure):
-    """How long ago the times in messages' headers were."""
+@verb(
+    "topic delay",
+    arg("topic", "Name of the topic, whose messages have a header"),
+    _window(10_000),
+    *NODE_WITHOUT_DAEMON,
+    duration(),
+)
+def delay(args: Namespace) -> None:
+    """How old the messages of a topic are when they arrive, judged by the stamp in their header."""
+    ages: deque[int] = deque(maxlen=args.window)
+    begun = False  # the first message only begins the count
 
-    about = "How old the messages of a topic are when they arrive, judged by the stamp in their header"
-    _begun = _news = False
-
-    def count(self, message: Any) -> None:
-        """A message comes now; the first one only begins the count."""
-        from ..sim.simulation import EPOCH
-
+    def count(message: Any) -> None:
+        nonlocal begun
         if not hasattr(message, "header"):
             raise CommandError("msg does not have header")
         stamp = message.header.stamp
-        if self._begun:
-            self.values.append(EPOCH + _now() - (stamp.sec * SECOND + stamp.nanosec))
-        self._begun = self._news = True
+        if begun:
+            ages.append(EPOCH + _now() - (stamp.sec * SECOND + stamp.nanosec))
+        begun = True
 
-    def report(self) -> None:
-        """Print, if there is something to say."""
-        if not self.values:
-            return
-        if not self._news:
-            print("no new messages")
-            return
-        self._news = False
-        self.print_times(lambda mean: f"average delay: {mean:.3f}")
+    def report() -> None:
+        if ages:
+            _print_times(lambda mean: f"average delay: {mean:.3f}", ages)
+
+    _measure(args, args.topic, count, report)
 
 
-def _add(words: str, measure: type[Measure], window: int, topic: Argument, *more: Argument) -> None:
-    """Add the verb of a measure, which looks at so many messages unless told otherwise."""
-    text = "How many messages to average over (default: %(default)s)"
-    average = arg("--window -w", text, metavar="WINDOW", type=positive_int, default=window)
+def _measure(
+    args: Namespace,
+    topic: str,
+    count: Callable[[Any], object],
+    report: Callable[[], object] | None = None,
+    *,
+    raw: bool = False,
+) -> None:
+    """Have `count` called for every message (or its `raw` bytes), and `report` every second."""
+    from rclpy.qos import qos_profile_sensor_data
 
-    @verb(words, topic, average, *more, *NODE_WITHOUT_DAEMON, duration(), help_text=measure.about)
-    def work(args: Namespace) -> None:
-        from rclpy.qos import qos_profile_sensor_data
-
-        made, name = measure(args), getattr(args, "topic", None) or args.topic_name
-        with direct_node(args) as node:
-            kind = wait_for_class(node, name, stretch_of(args))
-            print(made.begin.format(name), end="")
-            node.create_timer(1.0, made.report)
-            listen(node, name, kind, made.count, qos_profile_sensor_data, args, raw=made.raw)
+    with direct_node(args) as node:
+        kind = wait_for_class(node, topic, stretch_of(args))
+        if raw:
+            print(f"Subscribed to [{topic}]")
+        if report is not None:
+            node.create_timer(1.0, report)
+        listen(node, topic, kind, count, qos_profile_sensor_data, args, raw=raw)
 
 
-_filter = arg("--filter", "Count a message m only where this expression is true", dest="filter_expr", metavar="EXPR")
-_wall_time = flag("--wall-time", "Accepted; there is only one clock here", dest="use_wtime")
-_add("topic hz", Rate, 10_000, arg("topic_name", "Name of the topic, such as /turtle1/pose"), _filter, _wall_time)
-_add("topic bw", Bandwidth, 100, arg("topic", "Name of the topic, such as /turtle1/pose"))
-_add("topic delay", Delay, 10_000, arg("topic", "Name of the topic, whose messages have a header"))
+def _print_times(title: Callable[[float], str], times: Collection[int]) -> None:
+    """Print what the mean of the times (ns) amounts to, and their least, greatest and standard deviation."""
+    mean = sum(times) / len(times)
+    deviation = sqrt(sum((time - mean) ** 2 for time in times) / len(times))
+    print(title(mean / SECOND))
+    print(f"\tmin: {min(times) / SECOND:.3f}s max: {max(times) / SECOND:.3f}s", end=" ")
+    print(f"std dev: {deviation / SECOND:.5f}s window: {len(times)}")
