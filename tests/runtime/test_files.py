@@ -210,7 +210,7 @@ OUTSIDE = [
     "ros2 bag record -a -o ../new --for 0.1",
     "ros2 bag record -a -s sqlite3 -o to_folder/new --for 0.1",
     "ros2 bag record -a -o '~/new' --for 0.1",
-    "ros2 run turtlesim turtlesim_node; ros2 param dump /turtlesim --output-dir ..",
+    "ros2 run turtlesim turtlesim_node; ros2 param dump /turtlesim > ../turtlesim.yaml",
     "colcon build",
     "rm install; mkdir install; mv to_folder install/pkg; colcon build --base-paths src",
     "rm install; mkdir install; mv to_folder install/pkg; colcon build --base-paths src --symlink-install",
@@ -482,7 +482,7 @@ LINES = [
     "source {0}/setup.bash", "ros2 pkg create new_pkg --destination-directory {0}", "ros2 pkg create {0}",
     "ros2 bag record -a -o {0} --for 0.1", "ros2 bag record -a -s sqlite3 -o {0} --for 0.1",
     "ros2 bag record -a -o {0} &", "kill -INT %1", "ros2 topic pub /x std_msgs/msg/Int32 > {0} &", "sleep 1",
-    "ros2 param dump /turtlesim --output-dir {0}", "colcon build", "colcon build --symlink-install",
+    "colcon build", "colcon build --symlink-install",
     "colcon build --base-paths {0}", "colcon build --base-paths src --install-base {0} --build-base {1}",
     "colcon build --base-paths src --merge-install --install-base {0}",
 ]  # fmt: skip

@@ -8,9 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..runtime import files
 from .arguments import HIDDEN_NODES, NODE, arg, flag
-from .typed_values import MAX_LENGTH, Unparsable, read_yaml
+from .typed_values import Unparsable, read_yaml
 from .verb import CommandError, ask, direct_node, find_node, node_names, spin_for, suggest, verb
 
 if TYPE_CHECKING:
@@ -122,75 +121,43 @@ def tell(result: Any, done: str, failed: str) -> bool:
     return bool(result.successful)
 
 
-@verb(
-    "param dump",
-    *OF_NODE,
-    arg("--output-dir", "Deprecated: write a file named after the node into this folder"),
-    flag("--print", "Deprecated, and without effect"),
-)
+@verb("param dump", *OF_NODE)
 def dump(args: Namespace) -> None:
     """All parameters of a node, in the format that `load` reads."""
     import yaml
     from rclpy.parameter import parameter_value_to_python
 
-    if args.output_dir is not None and not Path(args.output_dir).is_dir():
-        raise CommandError(f"'{args.output_dir}' is not a valid directory.")
     with direct_node(args) as node:
         name = find_node(node, args)
         names = listed(node, name)
         values = _ask(node, name, "GetParameters", names=names).values
     pairs = zip(names, map(parameter_value_to_python, values), strict=False)
     tree = {name: {"ros__parameters": nested(list(pairs))}}
-    text = yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True)
-    if args.print:
-        print("WARNING: '--print' is deprecated; this utility prints to stdout by default", file=sys.stderr)
-    if args.output_dir is None or args.print:
-        print(text)
-        return
-    print("WARNING: '--output-dir' is deprecated; use redirection to save to a file", file=sys.stderr)
-    file = Path(args.output_dir) / f"{name.lstrip('/').replace('/', '__')}.yaml"
-    print("Saving to: ", file)
-    try:
-        files.save(file, text)
-    except (OSError, ValueError) as error:
-        raise CommandError(f"cannot write {file}: {getattr(error, 'strerror', None) or error}") from None
+    print(yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True))
 
 
-@verb(
-    "param load",
-    *OF_NODE,
-    arg("parameter_file", "A file as `ros2 param dump` prints it"),
-    flag("--no-use-wildcard", "Leave out what the file says for all nodes (/**)"),
-)
+@verb("param load", *OF_NODE, arg("parameter_file", "A file as `ros2 param dump` prints it"))
 def load(args: Namespace) -> None:
     """Set parameters from a file."""
     with direct_node(args) as node:
         name = find_node(node, args)
-        parameters = _read_file(args.parameter_file, name, wildcard=not args.no_use_wildcard)
-        messages = [(each, from_python(value, str(value))) for each, value in parameters]
+        parameters = _read_file(args.parameter_file, name)
+        messages = [(each, from_python(value, str(value))) for each, value in parameters.items()]
         for (each, _), result in zip(messages, set_values(node, name, messages), strict=True):
             tell(result, f"Set parameter {each} successful", f"Set parameter {each} failed")
 
 
-def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, Any]]:
-    """The parameters that a file has for a node. Raises CommandError if it has none."""
-    file = Path(path)
+def _read_file(path: str, node_name: str) -> dict[str, Any]:
+    """The parameters that a file has for all nodes (`/**`) and for this one. Raises CommandError if it has none."""
     try:
-        # Devices are not read, and of a file no more than YAML may have: some never end.
-        if file.exists() and not file.is_file():
-            raise CommandError(f"cannot read {path}: it is a folder or a device, not a file")
-        with file.open(encoding="utf-8") as stream:
-            text = stream.read(MAX_LENGTH + 1)
-    except FileNotFoundError:
-        raise CommandError(f"[Errno 2] No such file or directory: '{path}'") from None
+        content = read_yaml(Path(path).read_text(encoding="utf-8"), path)
     except (OSError, ValueError) as error:
-        raise CommandError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
-    content = read_yaml(text, path)
+        raise CommandError(str(error)) from None
     if not isinstance(content, dict):
         raise CommandError(
             f"{path} is not a parameter file: expected a line '{node_name}:' and ros__parameters below it"
         )
-    keys = [key for key in (["/**"] if wildcard else []) + [node_name] if key in content]
+    keys = [key for key in ("/**", node_name) if key in content]
     if not keys:
         raise CommandError(
             f"Param file does not contain parameters for {node_name},  only for nodes: {content.keys()}",
@@ -203,7 +170,7 @@ def _read_file(path: str, node_name: str, *, wildcard: bool) -> list[tuple[str, 
                 f"Invalid structure of parameter file for node {key}expected same format as provided by ros2 param dump"
             )
         found.update(flat(content[key]["ros__parameters"]))
-    return list(found.items())
+    return found
 
 
 LIST_PATIENCE = 1.0
@@ -215,31 +182,25 @@ LIST_PATIENCE = 1.0
     *NODE,
     arg("node_name", "Name of the node, such as /turtlesim", nargs="?"),
     HIDDEN_NODES,
-    arg("--param-prefixes", "Only parameters that begin with these", nargs="+", default=[]),
     flag("--param-type", "Show each parameter's type beside it"),
-    arg("--filter", "Only names whose beginning this regular expression matches", metavar="FILTER"),
 )
 def list_parameters(args: Namespace) -> None:
-    """The names of the parameters.
+    """The names of the parameters."""
+    from rcl_interfaces.srv import ListParameters
 
-    A node of which nothing is listed is left out (ros2param/verb/list.py).
-    """
-
-    import re
-
-    try:
-        wanted = re.compile(args.filter or "").match
-    except (re.error, OverflowError, RecursionError) as error:
-        raise CommandError(f"'{args.filter}' is not a regular expression: {error}") from None
     with direct_node(args) as node:
         every = dict.fromkeys(node_names(node, args.include_hidden_nodes))
-        nodes = [find_node(node, args)] if args.node_name else list(every)
-        for name, response in _ask_all(node, nodes, args.param_prefixes):
-            if response is None:
+        futures = {}
+        for name in [find_node(node, args)] if args.node_name else every:
+            client = node.create_client(ListParameters, f"{name}/list_parameters")
+            if client.service_is_ready():
+                futures[name] = client.call_async(ListParameters.Request())
+        for name, future in futures.items():
+            if not spin_for(node, LIST_PATIENCE, future):
                 print(f"Exception while calling service of node '{name}': None", file=sys.stderr)
                 continue
-            names = [each for each in sorted(response.result.names) if wanted(each)]
-            if names and not args.node_name:
+            names = sorted(future.result().result.names)
+            if names and not args.node_name:  # as in ros2param/verb/list.py
                 print(f"{name}:")
             types: dict[str, str] = {}
             if args.param_type and names:
@@ -247,18 +208,6 @@ def list_parameters(args: Namespace) -> None:
                 types = {each.name: f" (type: {TYPES[each.type][0]})" for each in descriptors}
             for each in names:
                 print(f"  {each}{types.get(each, '')}")
-
-
-def _ask_all(node: Node, names: list[str], prefixes: list[str]) -> list[tuple[str, Any]]:
-    """What each node that has parameters answers; None for one that does not within the time."""
-    from rcl_interfaces.srv import ListParameters
-
-    futures = []
-    for name in names:
-        client = node.create_client(ListParameters, f"{name}/list_parameters")
-        if client.service_is_ready():
-            futures.append((name, client.call_async(ListParameters.Request(prefixes=prefixes))))
-    return [(name, future.result() if spin_for(node, LIST_PATIENCE, future) else None) for name, future in futures]
 
 
 @verb("param get", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
@@ -270,10 +219,8 @@ def get(args: Namespace) -> None:
         if not values:
             raise CommandError("Parameter not set", suggest(args.parameter_name, listed(node, name)))
     _, field, label = TYPES[values[0].type]
-    if not field:
-        print(label if not args.hide_type else None)
-        return
-    print(*([] if args.hide_type else [label]), getattr(values[0], field))
+    shown = [getattr(values[0], field)] if field else []
+    print(*([] if args.hide_type else [label]), *shown)
 
 
 @verb("param set", *OF_NODE, PARAMETER, arg("value", "Its new value, in YAML: 1.5, true, fast, '[1, 2]'"))
