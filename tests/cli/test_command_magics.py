@@ -488,7 +488,6 @@ def test_whatever_a_cell_holds_its_lines_keep_their_number(parts: list[str]) -> 
         ("ros2 param get /turtlesim back", "background_b"),
         ("ros2 param get turtlesim background_", "background_g"),
         ("ros2 param set /turtlesim ", "background_r"),
-        ("ros2 param set /turtlesim background_b ", "255"),
         ("ros2 param describe /turtlesim background_b ", "background_g"),
         ("ros2 bag record ", "/turtle1/pose"),
         ("ros2 bag record -s ", "sqlite3"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
@@ -15,7 +15,7 @@ from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMa
 
 from .. import launching
 from ..idl.names import is_hidden
-from ..idl.registry import registry
+from ..idl.registry import FOLDERS, registry
 from ..runtime.world import current_world
 from .cells import COMMANDS, inner_places
 from .group_pkg import package_names
@@ -87,10 +87,42 @@ def _arguments(world: World, verb: Verb, words: list[str], begun: str) -> Iterab
 
 
 def _values(world: World, action: argparse.Action, given: Sequence[str], begun: str) -> Iterable[str]:
-    if action.choices is not None:
-        return [str(choice) for choice in action.choices]
-    find = BY_NAME.get(action.dest)
-    return [] if find is None else find(world, given, begun)
+    """What an argument may be, behind the words that are `given`."""
+    first = given[0] if given else ""
+    match action.dest:
+        case _ if action.choices is not None:
+            return map(str, action.choices)
+        case "action_name":
+            return [name.removesuffix(FEEDBACK) for name in world.graph.topics() if name.endswith(FEEDBACK)]
+        case "service_name":
+            return [name for name in world.graph.services() if not is_hidden(name)]
+        case "topic" | "topic_name" | "topics":
+            return [name for name in world.graph.topics() if not is_hidden(name)]
+        case "node" | "node_name":
+            return [node.full_name for node in world.graph.nodes if not node.hidden]
+        case "action_type" | "message_type" | "service_type" | "topic_type" | "type" as dest:
+            folders = {"action_type": ("action",), "service_type": ("srv",), "type": FOLDERS}.get(dest, ("msg",))
+            known = [name for name in interface_names() if name.split("/")[1] in folders]
+            return _own_type(world, first) or known
+        case "values" if len(given) > 1:
+            return _default_values(given[1])
+        case "parameter_name" | "parameter_names":
+            return _parameters(world, first)
+        case "transition":
+            return ("configure", "activate", "deactivate", "cleanup", "shutdown")
+        case "dependencies" | "package_name":
+            return package_names()
+        case "executable_name" if first in world.packages:
+            return world.packages.get(first).executables
+        case "launch_file_name" if first in world.packages:
+            return [path.name for path in world.packages.get(first).shared_files("*launch.*")]
+        case "launch_file_name" | "launch_arguments":
+            return _launch_arguments(world, given)
+        case "bag_path" | "output" | "parameter_file":
+            return paths(begun)
+        case "destination_directory":
+            return paths(begun, folders_only=True)
+    return ()
 
 
 def install(shell: Any) -> None:
@@ -132,46 +164,24 @@ def paths(begun: str, *, folders_only: bool = False) -> list[str]:
 
 # -- names ---------------------------------------------------------------------------------------------------------------
 
-Finder = Callable[["World", Sequence[str], str], Iterable[str]]
-
 FEEDBACK = "/_action/feedback"
 """What an action's topic of feedback is called behind the action's own name."""
 
 
-def _types(*folders: str) -> Finder:
-    def find(world: World, given: Sequence[str], begun: str) -> list[str]:
-        own = _own_type(world, given[0]) if given else []
-        return own or [name for name in interface_names() if name.split("/")[1] in folders]
-
-    return find
-
-
 def _own_type(world: World, name: str) -> list[str]:
     """The type of a topic, action or service that is there."""
-    topic = world.graph.topics().get(name)
-    if topic is not None:
-        return topic.types
-    feedback = world.graph.topics().get(f"{name}{FEEDBACK}")
-    if feedback is not None:
+    topics = world.graph.topics()
+    if name in topics:
+        return topics[name].types
+    if feedback := topics.get(f"{name}{FEEDBACK}"):
         return [each.removesuffix("_FeedbackMessage") for each in feedback.types]
     return world.graph.services().get(name, [])
 
 
-def _executables(world: World, given: Sequence[str], begun: str) -> list[str]:
-    return sorted(world.packages.get(given[0]).executables) if given and given[0] in world.packages else []
-
-
-def _launch_files(world: World, given: Sequence[str], begun: str) -> list[str]:
-    if not given or given[0] not in world.packages:
-        return _launch_arguments(world, given, begun)
-    return [path.name for path in world.packages.get(given[0]).shared_files("*launch.*")]
-
-
-def _launch_arguments(world: World, given: Sequence[str], begun: str) -> list[str]:
+def _launch_arguments(world: World, given: Sequence[str]) -> list[str]:
     """The arguments that a launch file takes and was not given yet: `rate:=`, or with their values if there are few."""
     try:
-        is_path = Path(given[0]).is_file()
-        path = Path(given[0]) if is_path else launching.find_launch_file(world, *given[:2])
+        path = Path(given[0]) if Path(given[0]).is_file() else launching.find_launch_file(world, *given[:2])
         with redirect_stdout(StringIO()):
             taken = launching.launch_arguments(world, path)
     except Exception:  # a file that is not there, or not finished
@@ -180,77 +190,25 @@ def _launch_arguments(world: World, given: Sequence[str], begun: str) -> list[st
     return [f"{each.name}:={choice}" for each in left for choice in each.choices or ("",)]
 
 
-def _parameters(world: World, given: Sequence[str], begun: str) -> list[str]:
-    node = _node_of(world, given[0]) if given else None
-    return [] if node is None else list(node.list_parameters([], 0).names)
-
-
-def _value_now(world: World, given: Sequence[str], begun: str) -> list[str]:
-    """The value that a parameter has, to be changed."""
-    node = _node_of(world, given[0]) if len(given) > 1 else None
-    if node is None or not node.has_parameter(given[1]):
-        return []
-    text = yaml.safe_dump(node.get_parameter(given[1]).value, default_flow_style=True, width=1_000_000)
-    text = text.removesuffix("...\n").strip()
-    return [f'"{text}"' if " " in text else text]
-
-
-def _transitions(world: World, given: Sequence[str], begun: str) -> list[str]:
-    """The transitions that a managed node can make now."""
-    machine = getattr(_node_of(world, given[0]) if given else None, "_state_machine", None)
-    return [] if machine is None else [each.label for each in machine.available_transitions]
-
-
-def _node_of(world: World, name: str) -> Any:
-    """The running node of a name. Tab must not let time pass, so it does not ask the node's services, as commands do."""
+def _parameters(world: World, name: str) -> list[str]:
+    """The parameters of a node. Tab must not let time pass, so the node's services are not asked, as commands do."""
     from rclpy._state import RclpyState
 
-    for entry in world.graph.nodes:
-        context = entry.process.state(RclpyState).context
-        for node in context._nodes if context is not None else ():
+    for process in {entry.process for entry in world.graph.nodes}:
+        for node in process.state(RclpyState).nodes:
             if node.get_fully_qualified_name() == absolute(name):
-                return node
-    return None
+                return list(node.list_parameters([], 0).names)
+    return []
 
 
-def _values_of(world: World, given: Sequence[str], begun: str) -> list[str]:
-    """The type that was named, with its default values, to be changed."""
+def _default_values(type_name: str) -> list[str]:
+    """A message, request or goal with its default values, to be changed."""
     from rosidl_runtime_py.convert import message_to_yaml
 
-    name = given[1] if len(given) > 1 else ""
     try:
-        made = registry.get(name)
+        made = registry.get(type_name)
         values = yaml.safe_load(message_to_yaml(getattr(made, "Request", getattr(made, "Goal", made))()))
     except Exception:  # a name that is not finished, or a definition that is refused
         return []
     text = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=1_000_000)
     return [f'"{text.strip()}"']
-
-
-_FINDERS: dict[str, Finder] = {
-    "action_name": lambda world, given, begun: [
-        name.removesuffix(FEEDBACK) for name in world.graph.topics() if name.endswith(FEEDBACK)
-    ],
-    "action_type": _types("action"),
-    "bag_path output parameter_file": lambda world, given, begun: paths(begun),
-    "dependencies package_name": lambda world, given, begun: package_names(),
-    "destination_directory output_dir": lambda world, given, begun: paths(begun, folders_only=True),
-    "executable_name": _executables,
-    "launch_arguments": _launch_arguments,
-    "launch_file_name": _launch_files,
-    "message_type topic_type": _types("msg"),
-    "node node_name": lambda world, given, begun: [node.full_name for node in world.graph.nodes if not node.hidden],
-    "parameter_name parameter_names": _parameters,
-    "service_name": lambda world, given, begun: [name for name in world.graph.services() if not is_hidden(name)],
-    "service_type": _types("srv"),
-    "topic topic_name topics": lambda world, given, begun: [
-        name for name in world.graph.topics() if not is_hidden(name)
-    ],
-    "transition": _transitions,
-    "type": _types("msg", "srv", "action"),
-    "value": _value_now,
-    "values": _values_of,
-}
-"""What finds the values of an argument, by the names that such arguments have."""
-
-BY_NAME = {name: find for names, find in _FINDERS.items() for name in names.split()}

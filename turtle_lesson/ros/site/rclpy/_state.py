@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .context import Context
     from .executors import Executor
     from .impl.logging_severity import LoggingSeverity
+    from .node import Node
 
 
 @dataclass
@@ -36,3 +37,8 @@ class RclpyState:
     """The levels that were set, by logger name; "" is the default."""
     rosout: dict[str, Callable[..., None]] = field(default_factory=dict)
     """By logger name, what publishes its lines."""
+
+    @property
+    def nodes(self) -> list[Node]:
+        """The nodes of the contexts that are up."""
+        return [node for context in self.contexts for node in context._nodes]
