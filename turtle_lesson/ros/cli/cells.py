@@ -115,25 +115,12 @@ def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
     translated: list[str] = []
     at = 0
     while at < len(lines):
-        column = _command_column(cell, at)
-        if column is not None:
-            end = cell.script_end(at, column)
-            translated += _call(lines[at:end], column)
-        else:
-            end = cell.statement_end(at)
-            translated += lines[at:end]
+        columns = [0] if lines[at].lstrip().startswith(("%", "!")) else [0, *inner_places(lines[at])]
+        column = next((each for each in columns if _is_command(cell, at, each)), None)
+        end = cell.statement_end(at) if column is None else cell.script_end(at, column)
+        translated += lines[at:end] if column is None else _call(lines[at:end], column)
         at = end
     return translated
-
-
-def _command_column(cell: _Cell, at: int) -> int | None:
-    """Where in the statement's first line a command begins; None if there is none."""
-    if _is_command(cell, at, 0):
-        return 0
-    line = cell.lines[at]
-    if line.lstrip().startswith(("%", "!")):
-        return None
-    return next((column for column in inner_places(line) if _is_command(cell, at, column)), None)
 
 
 def _is_command(cell: _Cell, at: int, column: int) -> bool:
@@ -169,13 +156,10 @@ def inner_places(line: str) -> Iterator[int]:
             continue
         found = _FIRST.match(line, place)
         known = found is not None and (found["sign"] or found["word"] in UNSURE or found["word"] in (*COMMANDS, "."))
-        if known and _opens(line[:place], " pass" if sign == ":" else ""):
+        head = line[:place].strip() + (" pass" if sign == ":" else "")
+        # An `else` or an `except` has more before it.
+        if known and any(_is_python(before + head) for before in ("", "if 1: pass\n", "try: pass\n")):
             yield place
-
-
-def _opens(head: str, body: str) -> bool:
-    """Whether a statement can follow this beginning of a line. An `else` or an `except` has more before it."""
-    return any(_is_python(f"{before}{head.strip()}{body}") for before in ("", "if 1: pass\n", "try: pass\n"))
 
 
 def _is_python(statement: str) -> bool:
@@ -184,16 +168,6 @@ def _is_python(statement: str) -> bool:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return False
     return True
-
-
-def _is_assigned(word: str, cell: str) -> bool:
-    """Whether a cell itself gives a value to a word."""
-    word = re.escape(word)
-    return bool(
-        re.search(rf"(?m)(?:^|[\s,(*]){word}\s*(?:[,:][^=\n]*)?=(?!=)", cell)
-        or re.search(rf"\b(?:for|import|as|def|class|global)\s+{word}\b", cell)
-        or re.search(rf"\bdef\s+\w+\([^)]{{0,1000}}\b{word}\b", cell)
-    )
 
 
 def _call(lines: list[str], column: int) -> list[str]:
@@ -207,11 +181,7 @@ def _call(lines: list[str], column: int) -> list[str]:
 
 
 class _Cell:
-    """A cell's lines, and where their statements and commands end.
-
-    A line is not read again for each statement that it might belong to: what an unclosed bracket holds open to the cell's
-    end shows on the way where the statements end that begin in later lines.
-    """
+    """A cell's lines, and where their statements and commands end."""
 
     def __init__(self, lines: list[str], variables: Container[str]) -> None:
         self.lines = lines
@@ -220,13 +190,16 @@ class _Cell:
         self._variables = variables
         self._known: dict[str, bool] = {}
         self._ends: dict[int, int] = {}
-        # From which line's end on a string is open until the cell ends, by its quote.
-        self._endless: dict[str, int] = {}
 
     def has(self, word: str) -> bool:
         """Whether a word is a variable, of the notebook or of this cell."""
         if word not in self._known:
-            self._known[word] = word in self._variables or _is_assigned(word, self._text)
+            name = re.escape(word)
+            self._known[word] = word in self._variables or bool(
+                re.search(rf"(?m)(?:^|[\s,(*]){name}\s*(?:[,:][^=\n]*)?=(?!=)", self._text)
+                or re.search(rf"\b(?:for|import|as|def|class|global)\s+{name}\b", self._text)
+                or re.search(rf"\bdef\s+\w+\([^)]{{0,1000}}\b{name}\b", self._text)
+            )
         return self._known[word]
 
     def script_end(self, at: int, column: int) -> int:
@@ -246,46 +219,24 @@ class _Cell:
 
         One with a bracket or a string that is never closed ends with its first line.
         """
-        if self.lines[at].lstrip().startswith(("%", "!")):
-            return next(
-                (end for end in range(at + 1, len(self.lines)) if not self.lines[end - 1].rstrip("\n").endswith("\\")),
-                len(self.lines),
-            )
         if at not in self._ends:
-            self._read_statement(at)
+            self._ends[at] = self._find_end(at)
         return self._ends[at]
 
-    def _read_statement(self, at: int) -> None:
-        """Read to the end of a statement, or of the cell; note where those end that begin on the way."""
-        opened: list[int] = []  # the line of each bracket that is open
-        closed: dict[int, int] = {}  # where the outermost bracket of a line is closed
-        joined: set[int] = set()  # lines that end in a backslash, or within a string
-        starts: list[int] = []
-        string, since, last = "", at, at
-        for last in range(at, len(self.lines)):
-            starts += [] if string else [last]
-            kind, text, before = "", "", string
-            for kind, text, _ in _pieces(self.lines[last], string):
-                if kind == "bracket" and _DEEPER[text] > 0:
-                    opened.append(last)
-                elif kind == "bracket" and opened:
-                    closed[opened.pop()] = last
+    def _find_end(self, at: int) -> int:
+        ends = range(at + 1, len(self.lines) + 1)
+        if self.lines[at].lstrip().startswith(("%", "!")):
+            return next((end for end in ends if not self.lines[end - 1].rstrip("\n").endswith("\\")), ends[-1])
+        depth, string = 0, ""
+        for end in ends:
+            kind = text = ""
+            for kind, text, _ in _pieces(self.lines[end - 1], string):
+                if kind == "bracket":
+                    depth = max(0, depth + _DEEPER[text])
             string = text if kind == "open string" else ""
-            since = since if string == before else last
-            if kind in ("open string", "backslash"):
-                joined.add(last)
-            if (not opened and last not in joined) or last >= self._endless.get(string, len(self.lines)):
-                break
-        if string:
-            self._endless[string] = min(since, self._endless.get(string, since))
-        behind = None if string else len(self.lines)
-        ends: dict[int, int | None] = dict.fromkeys(opened)
-        for line in range(last, at - 1, -1):
-            if closed.get(line, line) > line:
-                ends.setdefault(line, ends[closed[line]])
-            else:
-                ends.setdefault(line, ends.get(line + 1, behind) if line in joined else line + 1)
-        self._ends.update((line, ends[line] or line + 1) for line in starts)
+            if not (depth or string or kind == "backslash"):
+                return end
+        return at + 1 if depth or string else ends[-1]
 
 
 def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:
