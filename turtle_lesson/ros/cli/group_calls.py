@@ -69,27 +69,20 @@ def _not_offered(what: str, name: str, own: str, known: dict[str, list[str]]) ->
     return CommandError(f"{waited}: no node offers {name}", hint)
 
 
-def _outcome(
-    node: Node,
-    future: Future,
-    doing: str,
-    server: tuple[str, Callable[[], bool]],
-    until: float,
-    too_late: Callable[[], Exception],
-) -> Any:
-    """What a future brings; meanwhile, look whether the server is still there.
+def _outcome(node: Node, future: Future, doing: str, server: tuple[str, Callable[[], bool]], until: float) -> Any:
+    """What a future brings, or None if that takes too long; meanwhile, look whether the server is still there.
 
     Args:
         doing: what fails if the future has an exception.
         server: the name of the service or action, and whether it is there.
-        until: when to give up, in s of robot time, and raise what `too_late` gives.
+        until: when to give up, in s of robot time.
     """
     name, is_there = server
     while not spin_for(node, min(LOOK_AGAIN, until - now()), future):
         if not is_there():
             raise CommandError(f"{name} went away before it answered: did its node end, or did an error stop it?")
         if now() >= until - 1e-9:
-            raise too_late()
+            return None
     if future.exception() is not None:
         raise CommandError(f"Exception while {doing}: {future.exception()!r}")
     return future.result()
@@ -135,10 +128,6 @@ def call(args: Namespace) -> None:
             print("waiting for service to become available...")
             if not client.wait_for_service(timeout_sec=PATIENCE):
                 raise _not_offered("service", name, kind._TYPE_NAME, services(node, include_hidden=True))
-        too_late = CommandError(
-            f"No answer from {name} in {longest:g} s of robot time: "
-            "is its node busy with something else, or did an error end its callback?"
-        )
         seconds = stretch_of(args) if args.rate else None
         deadline = None if seconds is None else now() + seconds
         while True:
@@ -146,7 +135,12 @@ def call(args: Namespace) -> None:
             stamp(setters, node)
             print(f"requester: making request: {request!r}\n")
             future, server = client.call_async(request), (name, client.service_is_ready)
-            answer = _outcome(node, future, "calling service", server, begun + longest, lambda: too_late)
+            answer = _outcome(node, future, "calling service", server, begun + longest)
+            if answer is None:
+                raise CommandError(
+                    f"No answer from {name} in {longest:g} s of robot time: "
+                    "is its node busy with something else, or did an error end its callback?"
+                )
             print(f"response:\n{answer!r}\n")
             if args.rate is None:
                 return
@@ -232,27 +226,24 @@ def send_goal(args: Namespace) -> None:
         print(f"Sending goal:\n     {message_to_yaml(goal)}")
         until = now() + (args.seconds or LONGEST_ANSWER)
         future = client.send_goal_async(goal, print_feedback if args.feedback else None)
-        handle = _outcome(
-            node,
-            future,
-            "sending goal",
-            server,
-            until,
-            lambda: CommandError(
+        handle = _outcome(node, future, "sending goal", server, until)
+        if handle is None:
+            raise CommandError(
                 "The server has not said whether it accepts the goal: is its node busy with something else?"
-            ),
-        )
+            )
         if not handle.accepted:
             print("Goal was rejected.")
             return
         print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
         future = handle.get_result_async()
         try:
-            with_result = _outcome(node, future, "getting result", server, until, lambda: _cancelled(node, handle))
+            with_result = _outcome(node, future, "getting result", server, until)
         except KeyboardInterrupt:
             print("Canceling goal...")
             handle.cancel_goal_async()  # nothing can wait for the answer any more
             raise
+        if with_result is None:
+            raise _cancelled(node, handle)
         print(f"Result:\n    {message_to_yaml(with_result.result)}")
         # as in GoalStatus
         names = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELED", "ABORTED")

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from importlib import import_module
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from ..ament.package import NotHereError
@@ -167,10 +168,9 @@ class Group:
     def find(self, name: str) -> Group | Verb:
         """Its member of a name. Raises Stop if there is none."""
         if not self.module and name in NOT_HERE:
-            raise Stop(f"ros2 {name}: not available in this simulation: {NOT_HERE[name]}. A real ROS 2 has it.", 2)
-        found = self.members.get("doctor" if not self.module and name == "wtf" else name)
-        if found is not None:
-            return found
+            raise Stop(f"ros2 {name}: not available in this simulation. A real ROS 2 has it.", 2)
+        if name in self.members:
+            return self.members[name]
         listed = ", ".join(map(repr, self.members))
         error = f"error: argument Call `{self.prog} <command> -h` for more detailed usage.: invalid choice"
         text = f"{self.usage}\n{self.prog}: {error}: {cut(repr(name), 200)} (choose from {listed})"
@@ -183,9 +183,8 @@ class Group:
             option = rest.pop(0)
             if option in {"-h", "--help"}:
                 if rest and not rest[0].startswith("-"):
-                    self.find(
-                        rest[0]
-                    )  # as in ros2cli/command/__init__.py, a wrong name is noticed before help is printed
+                    # as in ros2cli/command/__init__.py, a wrong name is noticed before help is printed
+                    self.find(rest[0])
                 raise Stop(self.text, 0)
             if option != self.flag[0]:
                 raise _unrecognized([option], ["-h", "--help", self.flag[0]])
@@ -201,14 +200,8 @@ class Group:
         placeholder = f"Call `{self.prog} <command> -h` for more detailed usage. ..."
         if len(f"{begin} {placeholder}") <= WIDTH:
             return f"{begin} {placeholder}"
-        indent = " " * len(f"usage: {self.prog}")
-        lines, line = [begin], indent
-        for word in placeholder.split():
-            if len(f"{line} {word}") > WIDTH:
-                lines.append(line)
-                line = indent
-            line += f" {word}"
-        return "\n".join([*lines, line])
+        indent = " " * len(f"usage: {self.prog} ")
+        return "\n".join([begin, *wrap(placeholder, WIDTH, initial_indent=indent, subsequent_indent=indent)])
 
     @property
     def text(self) -> str:
@@ -274,14 +267,5 @@ GROUPS = {
     )
 }
 
-NOT_HERE = {
-    "component": "there are no composable nodes here",
-    "control": "there is no ros2_control here",
-    "extension_points": "its commands cannot be extended",
-    "extensions": "its commands cannot be extended",
-    "multicast": "there is no network between the nodes here",
-    "plugin": "there are no plugins here",
-    "security": "there is no network between the nodes here",
-    "test": "write tests with pytest instead",
-}
-"""Commands of a real ros2 that this simulation lacks, and why."""
+NOT_HERE = ("component", "control", "extension_points", "extensions", "multicast", "plugin", "security", "test")
+"""Commands of a real ros2 that this simulation lacks."""

@@ -71,7 +71,7 @@ Token = Word | Operator | HereText
 
 def tokens(text: str) -> list[Token]:
     """Take a script apart. Raises UnfinishedError if a quote is never closed."""
-    return _scan(text)[0]
+    return [token for token, _ in _scan(text)]
 
 
 def command_end(text: str, at: int = 0) -> int:
@@ -82,22 +82,24 @@ def command_end(text: str, at: int = 0) -> int:
 
     Raises UnfinishedError if a quote or a `<<END` is never closed.
     """
-    try:
-        return len(text) - _scan(text, at, one_command=True)[1]
-    except BackslashAtEndError:
-        return len(text)
+    before: Token | None = None
+    with contextlib.suppress(BackslashAtEndError):
+        for token, left in _scan(text, at):
+            if token != Operator("\n"):
+                before = token
+            elif before not in (Operator("&&"), Operator("||"), Operator("|")):
+                return len(text) - left
+    return len(text)
 
 
-def _scan(text: str, at: int = 0, *, one_command: bool = False) -> tuple[list[Token], int]:
-    """The tokens from a place on, all or those of one command, and how many characters come after them."""
-    found: list[Token] = []
+def _scan(text: str, at: int = 0) -> Iterator[tuple[Token, int]]:
+    """The tokens from a place on, each with how many characters come after it."""
     token: Token
-    before: Token | None = None  # the last token of this command that is no line's end
     while True:
         between = _BETWEEN.match(text, at)
         at = between.end() if between else at
         if at == len(text):
-            break
+            return
         if here := _HERE.match(text, at):
             at = here.end()
             token, text = _here_text(here)
@@ -106,12 +108,7 @@ def _scan(text: str, at: int = 0, *, one_command: bool = False) -> tuple[list[To
             token = Operator(sign[0])
         else:
             token, at = _word(text, at)
-        found.append(token)
-        if token != Operator("\n"):
-            before = token
-        elif one_command and before not in (Operator("&&"), Operator("||"), Operator("|")):
-            break
-    return found, len(text) - at
+        yield token, len(text) - at
 
 
 def _word(text: str, at: int) -> tuple[Word, int]:
