@@ -29,12 +29,6 @@ from tf2_ros import Buffer, StaticTransformBroadcaster, TransformException, Tran
 
 from . import spin
 
-ECHO_USAGE = """\
-Usage: tf2_echo source_frame target_frame [echo_rate]
-
-Prints where target_frame is, seen from source_frame: the transform that data in target_frame
-needs to be in source_frame. The echo rate is in Hz; 1 if it is left out."""
-
 
 class Echo(Node):
     """Prints the latest transform between two frames, at a rate (Hz)."""
@@ -91,22 +85,16 @@ def _listed(numbers: tuple[float, ...] | list[float]) -> str:
 
 def tf2_echo() -> int:
     """`tf2_echo A B [RATE]`: where frame B is, seen from frame A, again and again until Ctrl-C."""
-    words = remove_ros_args(sys.argv)[1:]
-    if len(words) not in (2, 3):
-        print(ECHO_USAGE)
-        return 1
-    rate = 1.0
-    if len(words) == 3:
-        try:
-            rate = float(words[2])
-        except ValueError:
-            print(f"Failed to convert rate argument '{words[2]}' to a floating-point number", file=sys.stderr)
-            return 2
-    if not 0.0 < rate <= 1000.0:
-        print(f"The rate must be more than 0 and at most 1000 Hz, got {words[2]}", file=sys.stderr)
-        return 2
+    about = "Print the transform that data in target_frame needs to be in source_frame: where target_frame is, seen from there"
+    parser = argparse.ArgumentParser(prog="tf2_echo", description=about)
+    parser.add_argument("source_frame")
+    parser.add_argument("target_frame")
+    parser.add_argument("echo_rate", nargs="?", type=float, default=1.0, help="how often a second (default: 1)")
+    args = parser.parse_args(remove_ros_args(sys.argv)[1:])
+    if not 0.0 < args.echo_rate <= 1000.0:
+        parser.error(f"the rate must be more than 0 and at most 1000 Hz, got {args.echo_rate:g}")
     rclpy.init()
-    return spin(lambda: Echo(words[0], words[1], rate))
+    return spin(lambda: Echo(args.source_frame, args.target_frame, args.echo_rate))
 
 
 # -- view_frames -------------------------------------------------------------------------------------------------------
@@ -163,71 +151,44 @@ def view_frames() -> int:
 
 # -- static_transform_publisher ----------------------------------------------------------------------------------------
 
-PUBLISHER_USAGE = """\
-usage: static_transform_publisher [--x X] [--y Y] [--z Z] [--qx QX] [--qy QY] [--qz QZ] [--qw QW]
-                                  [--roll ROLL] [--pitch PITCH] [--yaw YAW]
-                                  --frame-id FRAME_ID --child-frame-id CHILD_FRAME_ID
-
-Publishes a frame that never moves: where child-frame-id is, seen from frame-id. Lengths are in m; the turn is
-given by angles in rad or by a quaternion. What is left out is 0, no turn."""
 SHIFT, ANGLES, TURN = ("x", "y", "z"), ("roll", "pitch", "yaw"), ("qx", "qy", "qz", "qw")
 FRAMES = ("frame-id", "child-frame-id")
-OLD_WITH_ANGLES = (*SHIFT, "yaw", "pitch", "roll", *FRAMES)
-OLD_WITH_QUATERNION = (*SHIFT, *TURN, *FRAMES)
+OLD_STYLE = {8: (*SHIFT, "yaw", "pitch", "roll", *FRAMES), 9: (*SHIFT, *TURN, *FRAMES)}
+"""What older releases took without flags, by how many words there are."""
 
 
-class UsageError(Exception):
-    """What was typed cannot be understood."""
-
-
-def read_words(words: list[str]) -> dict[str, str]:
-    """The options that were typed, by name. Raises UsageError."""
-    given: dict[str, str] = {}
-    rest: list[str] = []
-    waiting = iter(words)
-    for word in waiting:
-        name = word.removeprefix("--")
-        if word.startswith("--") and name in (*SHIFT, *ANGLES, *TURN, *FRAMES):
-            given[name] = next(waiting, "")
-            if not given[name]:
-                raise UsageError(f"Not enough arguments for {word}")
-        else:
-            rest.append(word)
-    if not rest:
-        return given
-    names = {8: OLD_WITH_ANGLES, 9: OLD_WITH_QUATERNION}.get(len(rest))
-    if names is None:
-        raise UsageError("Extra unparsed arguments on command-line")
-    RcutilsLogger("").warning("Old-style arguments are deprecated; see --help for new-style arguments")
-    if given:
-        raise UsageError("Cannot specify both new-style (flags) and old-style (arguments)")
-    return dict(zip(names, rest, strict=True))
-
-
-def parameters_of(given: dict[str, str]) -> dict[str, object]:
-    """What the node's parameters shall be. Raises UsageError."""
-    numbers = {name: _number(name, value) for name, value in given.items() if name not in FRAMES}
-    if any(name in numbers for name in ANGLES) and any(name in numbers for name in TURN):
-        raise UsageError("Cannot specify both quaternion and Euler rotations")
-    turn = tuple(numbers.get(name, 1.0 if name == "qw" else 0.0) for name in TURN)
-    if any(name in numbers for name in ANGLES):
-        turn = turn_from_angles(*(numbers.get(name, 0.0) for name in ANGLES))
-    for name, what in zip(FRAMES, ("Frame", "Child frame"), strict=True):
-        if not given.get(name):
-            raise UsageError(f"{what} id must not be empty")
+def read_words(words: list[str]) -> dict[str, object]:
+    """What the node's parameters shall be, from the words of a command line. Raises SystemExit, with what is wrong."""
+    about = (
+        "Publish a frame that never moves: where child-frame-id is, seen from frame-id. What is left out is 0, no turn."
+    )
+    parser = argparse.ArgumentParser(prog="static_transform_publisher", description=about)
+    for name in SHIFT:
+        parser.add_argument(f"--{name}", type=float, default=0.0, help="in m")
+    for name in (*ANGLES, *TURN):
+        parser.add_argument(f"--{name}", type=float, help="in rad" if name in ANGLES else "part of a quaternion")
+    for name in FRAMES:
+        parser.add_argument(f"--{name}", required=True)
+    if len(words) in OLD_STYLE and not any(word.startswith("--") for word in words):
+        RcutilsLogger("").warning("Old-style arguments are deprecated; see --help for new-style arguments")
+        words = [f"--{name}={word}" for name, word in zip(OLD_STYLE[len(words)], words, strict=True)]
+    args = parser.parse_args(words)
+    angles, turn = ([getattr(args, name) for name in names] for names in (ANGLES, TURN))
+    if any(angle is not None for angle in angles) and any(part is not None for part in turn):
+        parser.error("Cannot specify both quaternion and Euler rotations")
+    if args.frame_id == args.child_frame_id:
+        ends = f"from '{args.frame_id}' to '{args.child_frame_id}'"
+        parser.error(f"cannot publish static transform {ends}: child_frame_id cannot equal frame_id")
+    if any(part is not None for part in turn):
+        rotation = [default if part is None else part for part, default in zip(turn, (0.0, 0.0, 0.0, 1.0), strict=True)]
+    else:
+        rotation = [*turn_from_angles(*(angle or 0.0 for angle in angles))]
     return {
-        **{f"translation.{name}": numbers.get(name, 0.0) for name in SHIFT},
-        **{f"rotation.{name}": value for name, value in zip("xyzw", turn, strict=True)},
-        "frame_id": given["frame-id"],
-        "child_frame_id": given["child-frame-id"],
+        **{f"translation.{name}": getattr(args, name) for name in SHIFT},
+        **{f"rotation.{name}": value for name, value in zip("xyzw", rotation, strict=True)},
+        "frame_id": args.frame_id,
+        "child_frame_id": args.child_frame_id,
     }
-
-
-def _number(name: str, value: str) -> float:
-    try:
-        return float(value)
-    except ValueError:
-        raise UsageError(f"Failed to parse --{name} argument as float") from None
 
 
 class StaticPublisher(Node):
@@ -260,19 +221,6 @@ class StaticPublisher(Node):
 
 def static_transform_publisher() -> int:
     """`static_transform_publisher --x 1 --frame-id A --child-frame-id B`, and the older way, until Ctrl-C."""
-    words = remove_ros_args(sys.argv)[1:]
+    values = read_words(remove_ros_args(sys.argv)[1:])
     rclpy.init()
-    if "--help" in words or "-h" in words:
-        print(PUBLISHER_USAGE)
-        return 0
-    try:
-        values = parameters_of(read_words(words))
-    except UsageError as error:
-        RcutilsLogger("").error(f"error parsing command line arguments: {error}")
-        print(PUBLISHER_USAGE)
-        return 1
-    ends = f"from '{values['frame_id']}' to '{values['child_frame_id']}'"
-    if values["frame_id"] == values["child_frame_id"]:
-        RcutilsLogger("").error(f"cannot publish static transform {ends}: child_frame_id cannot equal frame_id")
-        return 1
     return spin(lambda: StaticPublisher(values))
