@@ -418,7 +418,7 @@ def test_throttling_may_go_by_a_clock_of_ones_own(run: Run, capsys: Capture) -> 
         (
             {"throttle_time_source_type": object},
             TypeError,
-            'required parameter "throttle_duration_sec" not specified but is required for the the logging filter "throttle"',
+            "throttle_duration_sec is a number of seconds, got 0",
         ),
         (
             {"throttle_time_source_type": "RCUTILS_STEADY_TIME", "throttle_duration_sec": 1.0},

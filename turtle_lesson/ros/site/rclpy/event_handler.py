@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, cast
 
 from ._entity import WAITABLE, Entity
 from ._rclpy_pybind11 import UnsupportedEventTypeError
@@ -17,7 +17,9 @@ from .clock_type import CEnum
 from .logging import get_logger
 from .qos import QoSPolicyKind, qos_policy_name_from_kind
 
-rmw_qos_policy_kind_t = CEnum("rmw_qos_policy_kind_t", {f"RMW_QOS_POLICY_{kind.name}": kind for kind in QoSPolicyKind})  # type: ignore[misc]
+rmw_qos_policy_kind_t = cast("Any", CEnum)(
+    "rmw_qos_policy_kind_t", {f"RMW_QOS_POLICY_{kind.name}": kind for kind in QoSPolicyKind}
+)
 """Which policy did not fit. Its members equal those of QoSPolicyKind, but print as those of rclpy's C++ half."""
 
 

@@ -141,90 +141,68 @@ def levels() -> dict[str, LoggingSeverity]:
 # -- when a log call is held back: once, skip_first, throttle_duration_sec (the rules of rclpy's rcutils_logger.py) -----
 
 
-class _WorldTime:
-    """The clock that throttling goes by where no other is named: the robot's time."""
-
-    def _now(self) -> int:
-        return current_world().sim.now
+FILTERS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once")
 
 
-OPTIONS: dict[str, dict[str, Any]] = {
-    "throttle": {"throttle_duration_sec": None, "throttle_time_source_type": _WorldTime()},
-    "skip_first": {"skip_first": None},
-    "once": {"once": None},
-}
-"""The filters in the order in which they are asked, each with its options; None is the default of one that must be given."""
-
-
-def _filters_of(options: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """The filters that the options of a log call ask for, with the values of their options.
-
-    Raises TypeError for an option that is missing or unknown.
-    """
-    found: dict[str, dict[str, Any]] = {}
-    for name, params in OPTIONS.items():
-        if any(options.get(param) for param in params):
-            found[name] = params | {param: options[param] for param in params if param in options}
-            for param, default in params.items():
-                if default is None and param not in options:
-                    raise TypeError(
-                        f'required parameter "{param}" not specified but is required for the the logging filter "{name}"'
-                    )
-    known = [param for params in OPTIONS.values() for param in params]
-    for param in options:
-        if param not in known:
-            hint = did_you_mean(param, known)
-            raise TypeError(f'parameter "{param}" is not one of the recognized logging options "{known}"{hint}')
+def _filters_of(options: dict[str, Any]) -> dict[str, Any]:
+    """The options of a log call that are set. Raises TypeError or ValueError if they make no sense."""
+    for name in options:
+        if name not in FILTERS:
+            hint = did_you_mean(name, FILTERS)
+            raise TypeError(f'parameter "{name}" is not one of the recognized logging options "{list(FILTERS)}"{hint}')
+    found = {name: options[name] for name in FILTERS if options.get(name)}
+    pause, clock = found.get("throttle_duration_sec", 0), found.get("throttle_time_source_type")
+    if not isinstance(pause, (int, float)) or (clock and not pause):
+        raise TypeError(f"throttle_duration_sec is a number of seconds, got {pause!r}")
+    if clock and not hasattr(clock, "_now"):
+        raise ValueError(
+            f'Received throttle_time_source_type of "{clock}" is not a clock instance: hand over node.get_clock()'
+        )
     return found
 
 
 class CallSite:
     """What a logger remembers of one place in a program: the options of its call, and what its filters need to know."""
 
-    __slots__ = ("asked", "filters", "last_printed", "name", "options", "severity")
+    __slots__ = ("filters", "last_time", "name", "options", "printed", "severity", "skipped")
 
     def __init__(self, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> None:
         self.severity = severity
         self.name = name
         self.options = options
-        self.filters = _filters_of(options) if options else {}
-        self.asked: set[str] = set()  # of once and skip_first, those that have been
-        self.last_printed: int | None = None
-        if "throttle" in self.filters:
-            pause, clock = self.filters["throttle"].values()
-            if not isinstance(pause, (int, float)):
-                raise TypeError(f"throttle_duration_sec is a number of seconds, got {pause!r}")
-            if not hasattr(clock, "_now"):
-                raise ValueError(
-                    f'Received throttle_time_source_type of "{clock}" is not a clock instance: hand over node.get_clock()'
-                )
+        self.filters = _filters_of(options)
+        self.skipped = self.printed = False
+        self.last_time: int | None = None
+        """When it was last not held back by its throttle (ns)."""
 
     def check(self, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> None:
         """Raise ValueError if the same line of a program is used in another way than before."""
         filters = _filters_of(options)
-        if severity != self.severity:
-            raise ValueError("Logger severity cannot be changed between calls.")
-        if name != self.name:
-            raise ValueError("Logger name cannot be changed between calls.")
-        if list(filters) != list(self.filters):
-            raise ValueError("Requested logging filters cannot be changed between calls.")
-        if filters != self.filters:
-            raise ValueError("Logging filter parameters cannot be changed between calls.")
+        for what, before, now in (
+            ("Logger severity", self.severity, severity),
+            ("Logger name", self.name, name),
+            ("Requested logging filters", list(self.filters), list(filters)),
+            ("Logging filter parameters", self.filters, filters),
+        ):
+            if now != before:
+                raise ValueError(f"{what} cannot be changed between calls.")
 
     def lets_through(self) -> bool:
         """Whether this call is to be printed: the first filter that holds it back ends the question."""
-        for each in self.filters:
-            if each == "throttle":
-                pause, clock = self.filters["throttle"].values()
-                now = clock._now()
-                if self.last_printed is not None and now < self.last_printed + pause * NANOSECONDS:
-                    return False
-                self.last_printed = now
-            else:
-                is_first = each not in self.asked
-                self.asked.add(each)
-                if is_first != (each == "once"):
-                    return False
+        filters = self.filters
+        if "throttle_duration_sec" in filters:
+            clock = filters.get("throttle_time_source_type")
+            now = current_world().sim.now if clock is None else clock._now()
+            pause = filters["throttle_duration_sec"] * NANOSECONDS
+            if self.last_time is not None and now < self.last_time + pause:
+                return False
+            self.last_time = now
+        if "skip_first" in filters and not self.skipped:
+            self.skipped = True
+            return False
+        if "once" in filters and self.printed:
+            return False
+        self.printed = True
         return True
 
 
