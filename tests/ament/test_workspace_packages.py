@@ -326,7 +326,7 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
         ("def f():\n    f()\nf()\n", "RecursionError"),
         ("\0", "SyntaxError"),
         (SETUP.format("packages='py_demo'"), "'packages' must be a list of module names"),
-        (SETUP.format("py_modules=['../x']"), "'py_modules' must be a list of module names"),
+        (SETUP.format("py_modules=['x']"), "py_modules=… is not carried out in this simulation"),
         (SETUP.format("packages=['py_demo'], package_dir={'': '../..'}"), "lies outside the package's folder"),
         (SETUP.format("data_files=[(1, 2)]"), "which is not of the form ('folder', ['file', …])"),
         (SETUP.format("data_files={'a': 1}"), "which is not of the form ('folder', ['file', …])"),

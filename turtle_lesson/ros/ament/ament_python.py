@@ -13,7 +13,7 @@ from typing import Any
 from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
 from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, with_hint
-from .manifest import Found, hint_for
+from .manifest import Found, faults_in, hint_for
 from .package import BuildFailure, filled
 from .setup_py import SetupError, install_scripts, read_setup
 
@@ -47,10 +47,11 @@ class _Build:
         self.setup: dict[str, Any] = {}
 
     def run(self) -> Outcome:
-        folder, xml_error = self.found.path, self.found.xml_error
-        if xml_error:
-            hint = f"{shown_path(str(folder / 'package.xml'))}: {xml_error}. {hint_for(xml_error)}".strip()
-            self.hints.append(f"{hint} Until it is mended, colcon takes the folder for a Python package without ROS.")
+        folder, root = self.found.path, self.found.root
+        for fault in [self.found.xml_error] if root is None else faults_in(root):
+            raise _refused(
+                f"Error(s) in package '{shown_path(str(folder / 'package.xml'))}':\n{fault}", hint_for(fault)
+            )
         if not (folder / "setup.py").is_file():
             hint = "An ament_python package is built from its setup.py."
             if (folder / "CMakeLists.txt").is_file():
@@ -74,7 +75,7 @@ class _Build:
 
     def _modules(self) -> list[Item]:
         items = []
-        packages = self._names("packages")
+        packages = self._packages()
         top = sorted({name.partition(".")[0] for name in packages})
         for name in packages:
             if not self._folder(name).is_dir():
@@ -86,11 +87,9 @@ class _Build:
             files = files_in(folder) if self.environment.symlink else self._files_of(name)
             place = f"{SITE}/{name.replace('.', '/')}"
             items += [Item(f"{place}/{file.relative_to(folder).as_posix()}", file) for file in files]
-        for module in self._names("py_modules"):
-            file = self.found.path / f"{module}.py"
-            if not file.is_file():
-                raise _refused(f"error: file '{module}.py' does not exist", "setup.py names it in py_modules=….")
-            items.append(Item(f"{SITE}/{module}.py", file))
+        if self.setup.get("py_modules"):
+            hint = "Put the modules into a package, a folder with an __init__.py, and name that in packages=[…]."
+            raise _refused("error: py_modules=… is not carried out in this simulation", hint)
         version = self.setup.get("version", "0.0.0")
         texts = {
             "PKG-INFO": f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n",
@@ -115,17 +114,14 @@ class _Build:
             {file for file in inside if file.is_file() and file.is_relative_to(folder) and file.suffix != ".pyc"}
         )
 
-    def _names(self, option: str) -> list[str]:
-        """The modules that `packages=` or `py_modules=` lists. setuptools takes `a/b` for `a.b`, too."""
-        given = self.setup.get(option) or []
-        if option == "packages" and isinstance(given, list):
-            given = [name.replace("/", ".").strip(".") if isinstance(name, str) else name for name in given]
-        if not isinstance(given, list) or not all(
-            isinstance(name, str) and all(map(str.isidentifier, name.split("."))) for name in given
-        ):
-            text = f"error in {self.found.name} setup command: '{option}' must be a list of module names"
-            raise _refused(text, f"Write {option}=['{self.found.name}'], with brackets.")
-        return given
+    def _packages(self) -> list[str]:
+        """What `packages=` lists. setuptools takes `a/b` for `a.b`, too."""
+        given = self.setup.get("packages") or []
+        names = [str(name).replace("/", ".").strip(".") for name in given] if isinstance(given, list) else [""]
+        if not all(map(str.isidentifier, ".".join(names or ["a"]).split("."))):
+            text = f"error in {self.found.name} setup command: 'packages' must be a list of module names"
+            raise _refused(text, f"Write packages=['{self.found.name}'], with brackets.")
+        return names
 
     def _folder(self, package: str) -> Path:
         """Where a package lies: in its own folder, unless `package_dir=` says otherwise."""
@@ -174,11 +170,6 @@ class _Build:
         marker = f"share/ament_index/resource_index/packages/{name}"
         start = f"WARNING:colcon.colcon_ros.task.ament_python.build:Package '{name}' doesn't explicitly install"
         end = "(colcon-ros currently does it implicitly but that fallback will be removed in the future)\n"
-        if self.found.kind == "python":
-            if marker not in targets:
-                entry = f"('{marker.rpartition('/')[0]}', ['resource/{name}'])"
-                self.hints.append(f"ros2 does not find {name} on a robot: add {entry} to data_files in setup.py.")
-            return items
         if marker not in targets:
             self.warnings.append(f"{start} a marker in the package index {end}")
             items.append(Item(marker))
@@ -226,7 +217,7 @@ class _Build:
         """A real build does not look; the program would end with an error when it is run."""
         file = self._folder(module)
         source = file.with_suffix(".py") if file.with_suffix(".py").is_file() else file / "__init__.py"
-        own = module.partition(".")[0] in {each.partition(".")[0] for each in self._names("packages")}
+        own = module.partition(".")[0] in {each.partition(".")[0] for each in self._packages()}
         if source.is_file():
             text = source.read_text(encoding="utf-8", errors="replace")
             if not re.search(rf"\b{re.escape(function.partition('.')[0])}\b", text):

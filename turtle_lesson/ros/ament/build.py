@@ -28,7 +28,7 @@ from .install_tree import (
     read_installed,
     write_setup_files,
 )
-from .manifest import Found, in_order, needed_by
+from .manifest import Found, in_order, needed_by, reached
 from .source import resource, types_for
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ class _Builder:
                     seconds = as_seconds(self.now - job.began + 0.05)
                     self._say("console_start_end", f"Aborted  <<< {job.found.name} [{seconds}]")
                 break
-        write_setup_files(self.plan.install, installed_names(self.plan.install))
+        write_setup_files(self.plan.install)
         self._pass(_END)
         self._summarise(len(queued))
         self._warn_of_cpp()
@@ -165,13 +165,10 @@ class _Builder:
         """What the package may use: what is sourced, and those of this workspace that package.xml names."""
         install = self.plan.install
         installed = {*installed_names(install)} - {found.name}
-        needed: set[str] = set()
-        waiting = list(found.dependencies)
-        while waiting:
-            name = waiting.pop()
-            if name in installed - needed:
-                needed.add(name)
-                waiting += needs_of(prefix_of(install, name), name)
+        needed = reached(
+            installed.intersection(found.dependencies),
+            lambda name: installed.intersection(needs_of(prefix_of(install, name), name)),
+        )
         packages = [read_installed(install, name) for name in sorted(needed)]
         types = types_for(
             found, {each.name: (each.share, tuple(each.interfaces)) for each in packages if each.interfaces}

@@ -16,14 +16,13 @@ from pathlib import Path, PurePosixPath
 from ..idl.registry import Registry
 from ..runtime import files
 from ..sim.errors import shown_path
-from .manifest import Found
+from .manifest import Found, by_rounds
 from .package import BuildFailure, ColconError, Package
 
 PYTHON = "python3.10"
 """The Python of ROS 2 Humble, which is in the names of installed folders, whatever Python runs here."""
 
-SHELLS = {"bash": "${BASH_SOURCE[0]}", "sh": "$0", "zsh": "${(%):-%x}"}
-"""The shells for which there are setup files, and what each calls the file that it reads."""
+SETUP_FILES = tuple(f"{name}.{shell}" for name in ("setup", "local_setup") for shell in ("bash", "sh", "zsh"))
 
 LAYOUT = ".colcon_install_layout"
 """The file in which an install folder says `isolated` (a folder a package) or `merged` (one for all)."""
@@ -183,39 +182,25 @@ def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
 
 
 def _hooks(found: Found, outcome: Outcome) -> Iterator[Item]:
-    """What the package adds to the environment: a .dsv file a variable, as of colcon, and scripts for real shells."""
+    """What the package adds to the environment: a .dsv file a variable, as of colcon."""
     share = f"share/{found.name}"
     place = f"{share}/{'hook' if found.is_python else 'environment'}"
     variables = {"AMENT_PREFIX_PATH": ""}
     for folder in PYTHON_FOLDERS.values():
         if any(item.target.startswith(folder) for item in outcome.items):
             variables["PYTHONPATH"] = folder
-    script = f"# What the package {found.name} adds to the environment; COLCON_CURRENT_PREFIX is its folder.\n"
     for variable, folder in variables.items():
         yield Item(f"{place}/{variable.lower()}.dsv", text=f"prepend-non-duplicate;{variable};{folder}")
-        path = "/".join(filter(None, ("$COLCON_CURRENT_PREFIX", folder)))
-        script += f'export {variable}="{path}${{{variable}:+:${variable}}}"\n'
     sources = "".join(f"source;{place}/{variable.lower()}.dsv\n" for variable in variables)
     yield Item(f"{share}/package.dsv", text=sources)
-    for shell in SHELLS:
-        yield Item(f"{share}/package.{shell}", text=script)
 
 
-def write_setup_files(install: Path, names: Iterable[str]) -> None:
-    """`setup.bash`, `local_setup.bash` and the others, which overlay the packages in the order of `names`."""
-    for shell, place in SHELLS.items():
-        folder = f'"$(cd "$(dirname "{place}")" > /dev/null && pwd)'
-        lines = [
-            "# Made by colcon build. In a page `source` reads the folder itself; a real terminal can run this, too.\n",
-            f'_folder={folder}"\n',
-        ]
-        for name in names:
-            inner = "" if prefix_of(install, name) == install else f"/{name}"
-            lines.append(f'COLCON_CURRENT_PREFIX="$_folder{inner}"\n')
-            lines.append(f'. "$COLCON_CURRENT_PREFIX/share/{name}/package.{shell}"\n')
-        lines.append("unset COLCON_CURRENT_PREFIX _folder\n")
-        files.save(install / f"local_setup.{shell}", "".join(lines))
-        files.save(install / f"setup.{shell}", f'# Made by colcon build.\n. {folder}/local_setup.{shell}"\n')
+def write_setup_files(install: Path) -> None:
+    """`setup.bash`, `local_setup.bash` and the others: names for `source`, which reads the install folder itself."""
+    for name in SETUP_FILES:
+        files.save(
+            install / name, "# Made by colcon build of Turtle Lesson; `source` in a page reads this folder itself.\n"
+        )
 
 
 # -- read back -----------------------------------------------------------------------------------------------------------
@@ -243,12 +228,8 @@ def installed_names(install: Path) -> list[str]:
     pattern = "share/colcon-core/packages/*" if layout_of(install) == "merged" else "*/share/colcon-core/packages/*"
     names = {file.name for file in install.glob(pattern) if file.is_file()}
     needs = {name: names.intersection(needs_of(prefix_of(install, name), name)) for name in names}
-    ordered: list[str] = []
-    while needs:
-        ready = sorted(name for name, others in needs.items() if others <= {*ordered, name}) or sorted(needs)
-        ordered += ready
-        needs = {name: others for name, others in needs.items() if name not in ready}
-    return ordered
+    ordered, in_circles = by_rounds(needs)
+    return ordered + in_circles
 
 
 def read_installed(install: Path, name: str) -> Package:

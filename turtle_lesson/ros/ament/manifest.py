@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
 from ..idl.names import did_you_mean
 from .package import ColconError
-from .setup_py import SetupError, read_setup
 
 BUILD_TYPES = ("ament_cmake", "ament_python", "cmake")
 IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
@@ -32,7 +31,7 @@ class Found:
         shown: the folder as seen from the workspace's.
         dependencies: all packages that it names.
         root: the parsed package.xml, or None.
-        xml_error: why package.xml cannot be read, empty if it can; beside a setup.py also what is refused in it.
+        xml_error: why package.xml cannot be read, empty if it can.
     """
 
     name: str
@@ -71,24 +70,17 @@ class Found:
 
 
 def read_found(path: Path, base: Path) -> Found:
-    """What one package's folder says about itself.
-
-    A folder whose package.xml is refused and that has a setup.py is a plain Python package for colcon, which has its name
-    from setup.py and knows of no dependencies.
-    """
+    """What one package's folder says about itself."""
     shown = path.relative_to(base).as_posix() if path.is_relative_to(base) else str(path)
     try:
         root = ElementTree.fromstring((path / "package.xml").read_bytes())
     except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
-        return Found(_name_of_project(path) or _name_in_setup(path) or path.name, path, shown, xml_error=str(error))
+        return Found(_name_of_project(path) or path.name, path, shown, xml_error=str(error))
     name = _text(root, "name")
     if not re.fullmatch(r"[a-zA-Z0-9][a-zA-Z0-9_-]*", name):  # colcon takes it for a package without package.xml then
         name = _name_of_project(path) or path.name
-    build_type = _text(root, "export/build_type")
-    if build_type != "ament_cmake" and (faults := faults_in(root)) and (name_in_setup := _name_in_setup(path)):
-        return Found(name_in_setup, path, shown, xml_error=faults[0])
     dependencies = list(dict.fromkeys(filter(None, _texts(root, *_ORDERING))))
-    return Found(name, path, shown, build_type, dependencies, root)
+    return Found(name, path, shown, _text(root, "export/build_type"), dependencies, root)
 
 
 def _name_of_project(path: Path) -> str:
@@ -96,14 +88,6 @@ def _name_of_project(path: Path) -> str:
     text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
     match = re.search(r"^\s*project\s*\(\s*([\w-]+)", text, re.MULTILINE | re.IGNORECASE)
     return match[1] if match else ""
-
-
-def _name_in_setup(path: Path) -> str:
-    """The name that setup.py gives; nothing without one that can be run."""
-    try:
-        return str(read_setup(path).get("name", "")) if (path / "setup.py").is_file() else ""
-    except SetupError:
-        return ""
 
 
 def build_type_hint(build_type: str) -> str:
@@ -140,29 +124,41 @@ def in_order(packages: Iterable[Found]) -> list[Found]:
     twice = [f"- {name}:\n  - " + "\n  - ".join(shown) for name, shown in places.items() if len(shown) > 1]
     if twice:
         raise ColconError("\n".join(["Duplicate package names not supported:", *twice]))
-    ordered: list[Found] = []
-    while waiting:
-        names = {found.name for found in waiting}
-        ready = [found for found in waiting if not names.intersection(found.dependencies) - {found.name}]
-        if not ready:
-            lines = [f"{each.name}: {sorted(needed_by(waiting, [each.name]) - {each.name})}" for each in waiting]
-            raise ColconError("\n".join(["Unable to order packages topologically:", *lines]))
+    by_name = {found.name: found for found in waiting}
+    ordered, in_circles = by_rounds({name: found.dependencies for name, found in by_name.items()})
+    if in_circles:
+        left = [by_name[name] for name in in_circles]
+        lines = [f"{name}: {sorted(needed_by(left, [name]) - {name})}" for name in in_circles]
+        raise ColconError("\n".join(["Unable to order packages topologically:", *lines]))
+    return [by_name[name] for name in ordered]
+
+
+def by_rounds(needs: Mapping[str, Collection[str]]) -> tuple[list[str], list[str]]:
+    """The names so that each comes after those it needs, otherwise sorted; and those that need each other in a circle."""
+    ordered: list[str] = []
+    waiting = sorted(needs)
+    while ready := [name for name in waiting if not set(waiting).intersection(needs[name]) - {name}]:
         ordered += ready
-        waiting = [found for found in waiting if found not in ready]
-    return ordered
+        waiting = [name for name in waiting if name not in ready]
+    return ordered, waiting
 
 
-def needed_by(packages: Iterable[Found], names: Iterable[str]) -> set[str]:
-    """The names of the packages, and of all among them that these depend on."""
-    by_name = {found.name: found for found in packages}
+def reached(names: Iterable[str], needs: Callable[[str], Iterable[str]]) -> set[str]:
+    """The names, and all that these need, at any distance."""
     found: set[str] = set()
-    waiting = [name for name in names if name in by_name]
+    waiting = list(names)
     while waiting:
         name = waiting.pop()
         if name not in found:
             found.add(name)
-            waiting += [each for each in by_name[name].dependencies if each in by_name]
+            waiting += needs(name)
     return found
+
+
+def needed_by(packages: Iterable[Found], names: Iterable[str]) -> set[str]:
+    """The names of the packages, and of all among them that these depend on."""
+    needs = {found.name: found.dependencies for found in packages}
+    return reached(needs.keys() & names, lambda name: [each for each in needs[name] if each in needs])
 
 
 # -- what is refused in a package.xml ------------------------------------------------------------------------------------

@@ -23,6 +23,7 @@ from .index import CMAKE_PACKAGES, PYTHON_PACKAGES, is_launch_file
 from .install_tree import (
     LAYOUT,
     PYTHON_FOLDERS,
+    SETUP_FILES,
     Environment,
     Outcome,
     installed_names,
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from ..distro import Release
     from ..runtime.world import World
 
-_SETUP_FILES = {f"{name}.{shell}" for name in ("setup", "local_setup") for shell in ("bash", "sh", "zsh", "ps1")}
 _UNDERLAY = "/opt/ros/"
 
 
@@ -48,24 +48,21 @@ def source(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cw
     if words[0].startswith(_UNDERLAY):
         return 0  # the simulation's own packages are always there
     file = cwd / Path(words[0]).expanduser()
-    if problem := _problem(words[0], file):
-        print(problem, file=stderr)
-        return 1
-    overlay(world, file.resolve().parent)
-    return 0
-
-
-def _problem(word: str, file: Path) -> str:
+    is_install = (file.parent / LAYOUT).is_file()
+    if is_install and file.is_file() and file.name in SETUP_FILES:
+        overlay(world, file.resolve().parent)
+        return 0
+    word, text = words[0], f"bash: {words[0]}: No such file or directory"
     if file.is_dir():
-        return f"bash: source: {word}: is a directory. Name the file in it: source {word.rstrip('/')}/setup.bash"
-    if not file.is_file():
-        text = f"bash: {word}: No such file or directory"
-        if file.parent.is_dir() and (close := did_you_mean(file.name, _SETUP_FILES)):
-            return f"{text}. {close}" if (file.parent / LAYOUT).is_file() else text
-        return f"{text}. Have you run colcon build, and are you in the workspace's folder (the one that contains src/)?"
-    if file.name not in _SETUP_FILES or not (file.parent / LAYOUT).is_file():
-        return f"bash: {word}: this simulated terminal sources only what colcon build makes: source install/setup.bash"
-    return ""
+        text = f"bash: source: {word}: is a directory. Name the file in it: source {word.rstrip('/')}/setup.bash"
+    elif file.is_file():
+        text = f"bash: {word}: this simulated terminal sources only what colcon build makes: source install/setup.bash"
+    elif is_install:
+        text = f"{text}. {did_you_mean(file.name, SETUP_FILES)}".removesuffix(". ")
+    else:
+        text += ". Have you run colcon build, and are you in the workspace's folder (the one that contains src/)?"
+    print(text, file=stderr)
+    return 1
 
 
 # -- overlays ----------------------------------------------------------------------------------------------------------
