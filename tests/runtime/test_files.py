@@ -17,6 +17,7 @@ from hypothesis import strategies as some
 
 from turtle_lesson import start
 from turtle_lesson.ros.cli.shell import run_line
+from turtle_lesson.ros.idl.generator import _user_folder
 from turtle_lesson.ros.runtime import files
 from turtle_lesson.ros.runtime.world import World, open_world
 from turtle_lesson.session.lesson import underlay_packages
@@ -27,14 +28,13 @@ Type = Callable[[str], tuple[int, str, str]]
 
 @pytest.fixture(autouse=True)
 def nothing_is_deleted_elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """For this computer's sake, should a test fail: what deletes and moves stops at everything but temporary files."""
+    """For this computer's sake, should a test fail: what deletes and moves stops at all but temporary and cached files."""
+    free = [os.path.realpath(each) for each in (tempfile.gettempdir(), _user_folder())]
 
     def stopping(work: Callable[..., object]) -> Callable[..., object]:
         def safe(path: str | Path, *more: object, **options: object) -> object:
             place = Path(os.path.realpath(Path(path).parent))
-            assert options.get("dir_fd") is not None or place.is_relative_to(os.path.realpath(tempfile.gettempdir())), (
-                path
-            )
+            assert options.get("dir_fd") is not None or any(place.is_relative_to(each) for each in free), path
             return work(path, *more, **options)
 
         return safe
