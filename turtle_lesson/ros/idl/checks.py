@@ -251,22 +251,6 @@ def numpy_check(name: str, type_: FieldType) -> Check:
     return check
 
 
-def numpy_constructor(name: str, type_: FieldType) -> Check:
-    """What a constructor makes of a value for such a field: like rosidl's, it converts before it checks."""
-    dtype = numpy_name(type_.base)
-    check = numpy_check(name, type_)
-
-    def construct(value: Any) -> Any:
-        import numpy
-
-        made = check(numpy.array(value, dtype=dtype))
-        if made.ndim != 1:
-            raise refusal("", f"The '{name}' field takes {type_.size} numbers in a row, not {made.shape}")
-        return made
-
-    return construct
-
-
 def numpy_name(base: str) -> str:
     """numpy's name of a primitive type: char is a uint8."""
     return "uint8" if base == "char" else base

@@ -15,10 +15,9 @@ from typing import Any
 
 from . import checks, message
 from .message import slot_type
-from .model import Definition, Field, FieldType, Plain
+from .model import Definition, Field, Plain
 from .names import FLOATS, STRINGS, integer_bounds
 
-ELEMENT_CLASSES: dict[str, type] = {"bool": bool, "byte": bytes, "string": str, "wstring": str}
 ZEROS: dict[str, Plain | bytes] = {"bool": False, "byte": b"\x00", "string": "", "wstring": ""}
 
 
@@ -107,40 +106,36 @@ def zero(base: str) -> Plain | bytes:
 
 
 def _plain_kind(member: Field, key: str) -> Kind:
-    base = member.type.base
+    name, base, bound = member.name, member.type.base, member.type.string_bound
     value = zero(base) if member.default is None else member.default
     assert not isinstance(value, tuple)
-    check, test, copy = _plain_pieces(member.name, member.type)
-    name = f"_check_{key}"
+    limits, copy = "", "{value}"
+    if base in FLOATS:
+        kind, check = "_float", checks.float_check(name, base)
+        limit = checks.FLOAT_BOUNDS[base]
+        limits = f" and {-limit} <= {{value}} <= {limit}" if base == "float32" else ""
+    elif base in STRINGS:
+        kind, check, copy = "_str", checks.string_check(name, bound), "_plain_text({value})"
+        limits = "" if bound is None else f" and _len({{value}}) <= {bound}"
+    elif base == "bool":
+        kind, check = "_bool", checks.bool_check(name)
+    elif base == "byte":
+        kind, check, limits = "_bytes", checks.byte_check(name), " and _len({value}) == 1"
+    else:
+        low, high = integer_bounds(base)
+        kind, check, copy = "_int", checks.integer_check(name, base), "+{value}"  # + makes 1 of True
+        limits = f" and {low} <= {{value}} <= {high}"
+    variable = f"_check_{key}"
     return Kind(
-        name=member.name,
-        check=name,
+        name=name,
+        check=variable,
         fresh=literal(base, value),
-        test=test,
+        test=f"_type({{value}}) is {kind}{limits}",
         copy=copy,
         shares=True,
         is_float32=base == "float32",
-        objects={name: checks.assigned(check)},
+        objects={variable: checks.assigned(check)},
     )
-
-
-def _plain_pieces(name: str, type_: FieldType) -> tuple[checks.Check, str, str]:
-    base = type_.base
-    if base in FLOATS:
-        bound = checks.FLOAT_BOUNDS[base]
-        limits = f" and {-bound} <= {{value}} <= {bound}" if base == "float32" else ""
-        return checks.float_check(name, base), "_type({value}) is _float" + limits, "{value}"
-    if base in STRINGS:
-        limits = "" if type_.string_bound is None else f" and _len({{value}}) <= {type_.string_bound}"
-        check = checks.string_check(name, type_.string_bound)
-        return check, "_type({value}) is _str" + limits, "_plain_text({value})"
-    if base == "bool":
-        return checks.bool_check(name), "_type({value}) is _bool", "{value}"
-    if base == "byte":
-        return checks.byte_check(name), "_type({value}) is _bytes and _len({value}) == 1", "{value}"
-    low, high = integer_bounds(base)
-    test = f"_type({{value}}) is _int and {low} <= {{value}} <= {high}"
-    return checks.integer_check(name, base), test, "+{value}"  # + makes 1 of True
 
 
 def _message_kind(member: Field, key: str, message_class: type) -> Kind:
@@ -183,20 +178,18 @@ def _sequence_kind(member: Field, key: str) -> Kind:
 
 
 def _numpy_kind(member: Field, key: str) -> Kind:
-    type_, check, construct = member.type, f"_check_{key}", f"_construct_{key}"
-    dtype = f"'{checks.numpy_name(type_.base)}'"
-    store = partial(message.numpy_array, dtype=checks.numpy_name(type_.base))
+    type_, check = member.type, f"_check_{key}"
+    name = checks.numpy_name(type_.base)
     given = isinstance(member.default, tuple) and _finite(repr(list(member.default)))
     return Kind(
         name=member.name,
         check=check,
-        fresh=f"_numpy_array({given}, {dtype})" if given else f"_numpy_zeros({type_.size}, {dtype})",
+        fresh=f"_numpy_array({given}, '{name}')" if given else f"_numpy_zeros({type_.size}, '{name}')",
         copy="{value}.flatten()",
-        construct=f"{construct}({{value}})",
+        construct=f"{check}(_numpy_array({{value}}, '{name}'))",
         same="_same_array({value}, {other})",
         objects={
-            check: checks.assigned(checks.numpy_check(member.name, type_), store),
-            construct: checks.assigned(checks.numpy_constructor(member.name, type_), store),
+            check: checks.assigned(checks.numpy_check(member.name, type_), partial(message.numpy_array, dtype=name))
         },
         weight=type_.size or 0,
     )
@@ -204,7 +197,7 @@ def _numpy_kind(member: Field, key: str) -> Kind:
 
 def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
     type_, check, elements = member.type, f"_check_{key}", f"_elements_{key}"
-    element_class = message_class or ELEMENT_CLASSES[type_.base]
+    element_class = message_class or type(zero(type_.base))
     check_function = checks.list_check(member.name, type_, element_class)
     # What was put into the list since the check is refused when it is copied.
     objects: dict[str, Any] = {check: checks.assigned(check_function), elements: check_function}

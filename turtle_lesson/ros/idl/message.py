@@ -45,10 +45,16 @@ def message_repr(message: Any) -> str:
 
 
 def numpy_array(values: Any, dtype: str) -> Any:
-    """`numpy.array`. To import numpy takes as long as the rest of a start, so it is done for the first message with one."""
+    """Numbers as an array of numpy, whose import takes as long as the rest of a start: the first message with one does it.
+
+    Raises AssertionError, without words as ROS does, for numbers that are not in a row.
+    """
     import numpy
 
-    return numpy.array(values, dtype)
+    made = numpy.array(values, dtype)
+    if made.ndim != 1:
+        raise refusal("", f"The field takes numbers in a row, not an array of the shape {made.shape}")
+    return made
 
 
 def numpy_zeros(size: int, dtype: str) -> Any:
