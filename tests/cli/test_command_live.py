@@ -13,7 +13,7 @@ import pytest
 
 from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.cli.shell import CommandInterrupted, Shell, run_line
-from turtle_lesson.ros.runtime.world import World, live_rate, set_player
+from turtle_lesson.ros.runtime.world import World, live_rate
 from turtle_lesson.ros.stdlib.clocks import real_monotonic
 
 
@@ -39,7 +39,7 @@ def talker(world: World) -> World:
 @pytest.fixture
 def live(talker: World) -> World:
     """The same, in live mode, ten times as fast as life."""
-    set_player(talker, SimpleNamespace(rate=10.0, playing=True))
+    talker.player = SimpleNamespace(rate=10.0, playing=True)
     return talker
 
 
@@ -60,7 +60,7 @@ def own_nodes(world: World) -> list[str]:
 def test_the_rate_is_known_only_while_it_plays(world: World) -> None:
     assert live_rate(world) is None
     player = SimpleNamespace(rate=2.0, playing=False)
-    set_player(world, player)
+    world.player = player
     assert live_rate(world) is None
     player.playing = True
     assert live_rate(world) == 2.0

@@ -18,7 +18,7 @@ from ..ros.idl.registry import registry
 from ..ros.rmw.network import Conditions, set_conditions
 from ..ros.runtime import files
 from ..ros.runtime.files import CellOutput
-from ..ros.runtime.world import World, open_world, set_player
+from ..ros.runtime.world import World, open_world
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
 from ..ros.tools import demo_packages, program, tf2_packages
@@ -131,7 +131,7 @@ class Lesson(Inspection):
     def __init__(self, world: World, *, simulator: bool = True) -> None:
         self._world = world
         self._player = Player(world)
-        set_player(world, self._player)
+        world.player = self._player
         self._launched: dict[tuple[Path, str], LaunchHandle] = {}
         self._recorder: Recorder | None = None
         world.keep_trace()

@@ -7,18 +7,14 @@ ROS's classes ours have `_wire_copy()`, which gives what a subscriber on another
 
 from __future__ import annotations
 
-import codecs
 import keyword
 import linecache
 import marshal
 import os
-import re
 import sys
-import warnings
 from array import array
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from dataclasses import replace
 from functools import cache
 from hashlib import sha256
 from importlib.util import MAGIC_NUMBER
@@ -35,7 +31,7 @@ from .checks import FLOAT_BOUNDS
 from .codegen import Kind, kind_of, message_source, weight_of, wrapper_source
 from .message import slot_type
 from .model import Constant, Definition, Field, FieldType, InvalidDefinition, Plain, carriers
-from .names import STRINGS, module_name
+from .names import module_name
 
 Resolve = Callable[[FieldType], type]
 """Gives the class of a field's messages; raises InvalidDefinition where there is none."""
@@ -102,7 +98,7 @@ class _Builder:
         self._run(definition, "action" if is_action else "srv", wrapper_source(definition, parts))
 
     def _add_message(self, definition: Definition) -> None:
-        name, constants = definition.name, []
+        name = definition.name
         member: Field | Constant | None = None
         try:
             if keyword.iskeyword(name):
@@ -112,7 +108,7 @@ class _Builder:
             for member in definition.fields:
                 kinds.append(self._kind(definition, member))
             for member in definition.constants:
-                constants.append(replace(member, value=built_value(member.type, member.value)))
+                check_value(member.type, member.value)
             member = None
             check_weight(name, weight_of(kinds))
         except InvalidDefinition as error:
@@ -131,7 +127,6 @@ class _Builder:
         if rounded := sum(kind.is_float32 for kind in written_out):
             packing = Struct(f"{rounded}f")  # rounds them to float32
             self._globals.update({f"_pack_{rounded}": packing.pack, f"_unpack_{rounded}": packing.unpack})
-        definition = replace(definition, constants=tuple(constants))
         self._run(definition, definition.folder, message_source(definition, kinds))
 
     def _run(self, definition: Definition, kind: str, source: str) -> None:
@@ -145,11 +140,9 @@ class _Builder:
     def _kind(self, definition: Definition, field: Field) -> Kind:
         check_buildable(field)
         default, type_ = field.default, field.type
-        if isinstance(default, tuple):
-            default = tuple(built_value(type_.base, each, type_.string_bound) for each in default)
-        elif default is not None:
-            default = built_value(type_.base, default, type_.string_bound)
-        field = replace(field, default=default)
+        for value in default if isinstance(default, tuple) else (default,):
+            if value is not None:
+                check_value(type_.base, value)
         if type_.is_primitive:
             return kind_of(definition, field, None)
         is_own = type_.folder == "action"  # a goal, a result or feedback, in the messages that carry it
@@ -218,39 +211,19 @@ def check_weight(name: str, weight: int) -> None:
         )
 
 
-def built_value(base: str, value: Plain, string_bound: int | None = None) -> Plain:
-    """One value of a primitive type as the built class has it."""
-    if base in STRINGS and isinstance(value, str):
-        return _text(value, string_bound)
-    if base in FLOAT_BOUNDS and isinstance(value, float):
-        if not isfinite(value):
-            hint = "Set it in the program: float('nan'), float('inf')"
-            raise _invalid(f"value '{value}' cannot be written in a form that a build accepts", hint)
-        if abs(value) > FLOAT_BOUNDS[base]:
-            raise _invalid(f"value '{value}' is too large for {base}")
-    return value
-
-
-def _text(text: str, bound: int | None) -> str:
-    """A text after its way through IDL, which decodes escapes such as `\\n` and `\\x41`."""
-    if text.isascii() and "\\" not in text:
-        return text
-    seen = None
-    with suppress(UnicodeError), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of escapes that are none, such as \d: they stay as they are
-        idl = text.encode().decode("unicode_escape").replace('"', r"\"").encode("latin-1").decode()
-        seen = re.sub(r"\\x.{1,2}", lambda match: codecs.decode(match[0], "unicode_escape"), idl)
-    if seen is None or len(re.search(r"\\*$", idl)[0]) % 2:  # type: ignore[index]
-        hint = r"Write three more backslashes before each one that is to stay; write é itself, not \u00e9"
-        raise _invalid(f"value '{text}' has a backslash that no build accepts", hint)
-    seen = re.sub(r'\\(["\\])', r"\1", seen)
-    if bound is not None and len(seen) > bound:
-        raise _invalid(f"value '{text}' is longer than {bound} characters once its escapes are read")
-    return seen
-
-
-def _invalid(reason: str, hint: str = "") -> InvalidDefinition:
-    return InvalidDefinition(reason, "InvalidValue", hint=hint)
+def check_value(base: str, value: Plain) -> None:
+    """Raise InvalidDefinition for a default value or constant that no build gets through, or only as another value."""
+    reason, hint = "", ""
+    if isinstance(value, str) and "\\" in value:
+        reason = f"value '{value}' has a backslash: escapes are not available here"
+        hint = "Set the text in the program"
+    elif isinstance(value, float) and not isfinite(value):
+        reason = f"value '{value}' cannot be written in a form that a build accepts"
+        hint = "Set it in the program: float('nan'), float('inf')"
+    elif isinstance(value, float) and abs(value) > FLOAT_BOUNDS[base]:
+        reason = f"value '{value}' is too large for {base}"
+    if reason:
+        raise InvalidDefinition(reason, "InvalidValue", hint=hint)
 
 
 # -- the user's cache folder -------------------------------------------------------------------------------------------

@@ -46,9 +46,6 @@ class NodeEntry:
         """Whether ROS's tools leave this node out of their lists: a part of its name starts with an underscore."""
         return is_hidden(self.full_name)
 
-    def __repr__(self) -> str:
-        return f"<NodeEntry {self.full_name}>"
-
 
 class Graph:
     """All nodes, topics and services of a world. `on_change` callbacks hear of every change."""

@@ -71,7 +71,8 @@ class Writer(End):
         self._plan()
 
     def _choose_way(self, reader: Reader) -> None:
-        if reader not in self._lines and self._wants_line(reader):
+        special = reader.watches or self.quality.lifespan is not None or self.topic.conditions is not None
+        if special and reader not in self._lines:
             self._lines[reader] = self._line_to(reader)
         if reader in self._lines:
             self._lines[reader].use(self.topic.conditions)
@@ -91,9 +92,6 @@ class Writer(End):
             steps.append(self._send_by_lines)
         self._also = None if not steps else steps[0] if len(steps) == 1 else partial(_do_all, steps)
         self._idle = not steps and not self._usual and self.note is None
-
-    def _wants_line(self, reader: Reader) -> bool:
-        return reader.watches or self.quality.lifespan is not None or self.topic.conditions is not None
 
     def _line_to(self, reader: Reader) -> Line:
         lifespan = self.quality.lifespan

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -55,6 +54,8 @@ class World:
         self.processes: list[Process] = []
         self.start_order: Random | None = None
         """What draws which program of a launch is started next; None: in the order in which they are written."""
+        self.player: Pace | None = None
+        """What plays this world in live mode."""
         self.at_close: list[Callable[[], object]] = []
         """Called first when the world is closed: what outlives it lets go of it."""
         self._pid = FIRST_PID
@@ -180,21 +181,11 @@ class Pace(Protocol):
         """Whether robot time goes on by itself."""
 
 
-@dataclass
-class _Live:
-    player: Pace | None = None
-
-
-def set_player(world: World, player: Pace) -> None:
-    """Say who plays this world in live mode."""
-    world.notebook.state(_Live).player = player
-
-
 def live_rate(world: World) -> float | None:
     """How many times as fast as real time the world goes in live mode; None if it is not live, or unpaced."""
     if world.sim.stepped is not None and world.sim.stepped.runs_here:
         return None  # what steps it sees to the pace
-    player = world.notebook.state(_Live).player
+    player = world.player
     return player.rate if player is not None and player.playing and math.isfinite(player.rate) else None
 
 
