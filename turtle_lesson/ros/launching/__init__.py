@@ -10,7 +10,6 @@ world runs. Python programs come up one after the other, each 0.3 s of robot tim
 
 from __future__ import annotations
 
-import sys
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -40,8 +39,6 @@ def __getattr__(name: str) -> Any:
     """
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    if str(_SITE) not in sys.path:
-        sys.path.append(str(_SITE))  # after all others
     for package in ("launch", "launch_ros", "launch_xml", "launch_yaml"):
         spec = find_spec(package)
         if spec is None or not spec.origin or _SITE not in Path(spec.origin).resolve().parents:

@@ -178,18 +178,17 @@ def _unexpected_keyword(name: str) -> str:
     return did_you_mean(name, sorted(known - {"kwargs", "cmd"}))
 
 
-def _text_wanted(kind: str) -> str:
-    if kind == "NoneType":
-        return "Launch needs text here, but got None: is a variable or a return value empty?"
-    return f"Launch needs text here, but got a value of type {kind}: put it in quotes, as in '5.0'."
-
-
 _BY_TEXT: dict[str, str | Callable[[str], str]] = {
     r"name '(\w+)' is not defined": _undefined,
     r"unexpected keyword argument '(\w+)'": _unexpected_keyword,
     r"missing \d+ required keyword-only arguments?: '(\w+)'": r"Write \1='…' in it.",
     r"expected 'parameters' to be one of .*'dict'": "Put it into a list: parameters=[{…}]",
-    r"Failed to normalize given item of type '<class '(\w+)'>'": _text_wanted,
+    r"Failed to normalize given item of type '<class 'NoneType'>'": (
+        "Launch needs text here, but got None: is a variable or a return value empty?"
+    ),
+    r"Failed to normalize given item of type '<class '(\w+)'>'": (
+        r"Launch needs text here, but got a value of type \1: put it in quotes, as in '5.0'."
+    ),
     r"'NoneType' object has no attribute 'get_launch_arguments": (
         "generate_launch_description() must end with: return LaunchDescription([…])"
     ),

@@ -340,7 +340,7 @@ def launch_description(
     world: World, description: LaunchDescription, arguments: Mapping[str, object] | None = None
 ) -> LaunchHandle:
     """Carry out a description that was made in a notebook cell. As `launch_file` otherwise."""
-    return _begin(world, LaunchDescriptionSource(description, "notebook cell"), arguments, "a description")
+    return _begin(world, LaunchDescriptionSource(description), arguments, "a description")
 
 
 def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgument]:

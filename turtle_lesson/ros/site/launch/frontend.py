@@ -285,6 +285,8 @@ def description_of(root: Entity) -> LaunchDescription:
 
     Raises RuntimeError if the root is not `launch`; and whatever is wrong below it.
     """
+    import launch_ros  # noqa: F401  (makes its actions known)
+
     try:
         if root.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
@@ -296,24 +298,21 @@ def description_of(root: Entity) -> LaunchDescription:
         raise
 
 
-def read_launch_file(file: str, read: Callable[[str, str], Entity] | None = None) -> Entity:
-    """The root tag of a file: as `read` reads it, or as what its ending says, or else as what it can be read as.
+def read_launch_file(file: str) -> Entity:
+    """The root tag of a file: as what its ending says, or else as what it can be read as.
 
     Raises InvalidFrontendLaunchFileError if it is neither XML nor YAML.
     """
-    import launch_ros  # noqa: F401  (makes its actions known)
     import launch_xml
     import launch_yaml
 
-    text = Path(file).read_text(encoding="utf-8-sig")
-    if read is not None:
-        return read(text, file)
     extension = Path(file).suffix.lstrip(".")
-    formats = [launch_yaml, launch_xml] if extension in ("yaml", "yml") else [launch_xml, launch_yaml]
     errors = []
-    for each in formats:
+    for each in (launch_yaml, launch_xml) if extension in ("yaml", "yml") else (launch_xml, launch_yaml):
         try:
-            return each.read(text, file)
+            return each.read(file)
+        except OSError:
+            raise
         except Exception as error:
             errors.append(error)
     known = extension if extension in ("xml", "yaml", "yml") else ""

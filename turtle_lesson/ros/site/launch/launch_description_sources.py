@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -13,13 +12,7 @@ from turtle_lesson.ros.sim.errors import shown_path
 
 from ._context import LaunchContext
 from ._entities import LaunchDescription, SomeSubstitutionsType, described, explained
-from .frontend import (
-    Entity,
-    InvalidFrontendLaunchFileError,
-    InvalidLaunchFileError,
-    description_of,
-    read_launch_file,
-)
+from .frontend import InvalidFrontendLaunchFileError, InvalidLaunchFileError, description_of, read_launch_file
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 __all__ = ["AnyLaunchDescriptionSource", "FrontendLaunchDescriptionSource", "PythonLaunchDescriptionSource"]
@@ -29,54 +22,45 @@ class LaunchDescriptionSource:
     """A launch description, or a location from which a subclass gets one when it is needed."""
 
     def __init__(
-        self,
-        launch_description: LaunchDescription | None = None,
-        location: SomeSubstitutionsType = "",
-        method: str = "unspecified mechanism from a script",
+        self, launch_description: LaunchDescription | None = None, location: SomeSubstitutionsType = ""
     ) -> None:
         self.__launch_description = launch_description
         self.__location = normalize_to_list_of_substitutions(location)
-        self.__expanded_location: str | None = None
-        self.method = method
-
-    @property
-    def location(self) -> str:
+        self.location = described(self.__location)
         """Where it comes from, as far as that is known yet."""
-        if self.__expanded_location is not None:
-            return self.__expanded_location
-        return described(self.__location)
 
     def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
         """The description; the file is read when it is first asked for."""
-        if self.__expanded_location is None:
-            self.__expanded_location = perform_substitutions(context, self.__location)
         if self.__launch_description is None:
-            self.__launch_description = self._get_launch_description(self.__expanded_location)
+            self.location = perform_substitutions(context, self.__location)
+            self.__launch_description = self._get_launch_description(self.location)
         return self.__launch_description
 
     def try_get_launch_description_without_context(self) -> LaunchDescription | None:
         """The description if it can be had before the launch runs, otherwise None."""
-        if self.__launch_description is not None:
-            return self.__launch_description
         try:
             return self.get_launch_description(LaunchContext())
         except Exception:
-            self.__expanded_location = None
+            self.location = described(self.__location)
             return None
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         raise NotImplementedError(f"{type(self).__name__} does not say how to get a launch description")
 
 
+class _LaunchFile(LaunchDescriptionSource):
+    """Gets the description from a file, in a way that a subclass knows."""
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        super().__init__(location=launch_file_path)
+
+
 class InvalidPythonLaunchFileError(Exception):
     """A Python launch file lacks what every launch file must have."""
 
 
-class PythonLaunchDescriptionSource(LaunchDescriptionSource):
+class PythonLaunchDescriptionSource(_LaunchFile):
     """Gets the description from a Python launch file."""
-
-    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        super().__init__(None, launch_file_path, "interpreted python launch file")
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         """What the file's `generate_launch_description()` returns; the file is run in a fresh module, each time anew.
@@ -102,28 +86,15 @@ def _without_function(path: str) -> InvalidPythonLaunchFileError:
     return InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}")
 
 
-class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
-    """Gets the description from an XML or YAML launch file. `read` gives the root tag of a text of one format."""
-
-    def __init__(
-        self,
-        launch_file_path: SomeSubstitutionsType,
-        *,
-        method: str = "interpreted frontend launch file",
-        read: Callable[[str, str], Entity] | None = None,
-    ) -> None:
-        super().__init__(None, launch_file_path, method)
-        self._read = read
+class FrontendLaunchDescriptionSource(_LaunchFile):
+    """Gets the description from an XML or YAML launch file."""
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        return description_of(read_launch_file(location, self._read))
+        return description_of(read_launch_file(location))
 
 
-class AnyLaunchDescriptionSource(LaunchDescriptionSource):
+class AnyLaunchDescriptionSource(_LaunchFile):
     """Gets the description from a launch file, whatever its format."""
-
-    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        super().__init__(None, launch_file_path, "interpreted launch file")
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         """The description. Raises InvalidLaunchFileError caused by what went wrong in the file; its text is the real one."""

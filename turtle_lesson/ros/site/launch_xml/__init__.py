@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, get_args
 from xml.parsers import expat
 
-from launch import frontend
-from launch._entities import SomeSubstitutionsType, explained
+from launch import LaunchDescription, frontend
+from launch._entities import explained
 from launch._package import complete_package
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import value_in_text
@@ -63,8 +64,8 @@ class Entity(frontend.Entity):
             ) from None
 
 
-def read(text: str, name: str) -> Entity:
-    """The root tag of a text; `name` is the file's. Raises xml.etree.ElementTree.ParseError if it is not well formed."""
+def read(file: str) -> Entity:
+    """The root tag of a file. Raises xml.etree.ElementTree.ParseError if it is not well formed."""
     builder = ET.TreeBuilder(element_factory=Element)
     parser = expat.ParserCreate()
 
@@ -75,11 +76,11 @@ def read(text: str, name: str) -> Entity:
     parser.EndElementHandler = builder.end
     parser.CharacterDataHandler = builder.data
     try:
-        parser.Parse(text.encode(), True)
+        parser.Parse(Path(file).read_text(encoding="utf-8-sig").encode(), True)
     except expat.ExpatError as error:
         hint = _HINTS.get(expat.ErrorString(error.code), "Are all tags closed, and all values in quotation marks?")
-        raise explained(ET.ParseError(str(error)), hint, (name, error.lineno)) from None
-    return Entity(builder.close(), file=name)
+        raise explained(ET.ParseError(str(error)), hint, (file, error.lineno)) from None
+    return Entity(builder.close(), file=file)
 
 
 _HINTS = {
@@ -97,8 +98,8 @@ _HINTS = {
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """Gets the description from an XML launch file."""
 
-    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        super().__init__(launch_file_path, method="interpreted XML launch file", read=read)
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        return frontend.description_of(read(location))
 
 
 complete_package("launch_xml", {"launch_xml.launch_description_sources": "XMLLaunchDescriptionSource"})

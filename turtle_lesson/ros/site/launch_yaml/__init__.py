@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import yaml
-from launch import frontend
-from launch._entities import SomeSubstitutionsType, explained
+from launch import LaunchDescription, frontend
+from launch._entities import explained
 from launch._package import complete_package
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch.utilities import is_of_type
@@ -82,23 +83,23 @@ class Entity(frontend.Entity):
         return [Entity(item, name, parent=self, line=min(item.lines.values(), default=None)) for item in given]
 
 
-def read(text: str, name: str) -> Entity:
-    """The root tag of a text; `name` is the file's. Raises yaml.YAMLError if it is no YAML, RuntimeError for several roots."""
-    loader = _Loader(text)
-    loader.name = shown_path(name) or loader.name
+def read(file: str) -> Entity:
+    """The root tag of a file. Raises yaml.YAMLError if it is no YAML, and RuntimeError for several roots."""
+    loader = _Loader(Path(file).read_text(encoding="utf-8-sig"))
+    loader.name = shown_path(file)
     try:
         tree = loader.get_single_data()
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
-        explained(error, _hint(error), None if mark is None else (name, mark.line + 1))
+        explained(error, _hint(error), None if mark is None else (file, mark.line + 1))
         raise
     finally:
         loader.dispose()
     if not isinstance(tree, Mapping) or len(tree) != 1:
         hint = "The file begins with launch: and all actions are a list below it."
-        raise explained(RuntimeError("Expected only one root"), hint, (name, 1))
+        raise explained(RuntimeError("Expected only one root"), hint, (file, 1))
     [root] = tree
-    return Entity(tree[root], str(root), file=name, line=tree.lines.get(root, 1))
+    return Entity(tree[root], str(root), file=file, line=tree.lines.get(root, 1))
 
 
 class _Loader(BoundedLoader):
@@ -130,10 +131,10 @@ def _hint(error: yaml.MarkedYAMLError) -> str:
 
 
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
-    """Gets the description from an YAML launch file."""
+    """Gets the description from a YAML launch file."""
 
-    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
-        super().__init__(launch_file_path, method="interpreted YAML launch file", read=read)
+    def _get_launch_description(self, location: str) -> LaunchDescription:
+        return frontend.description_of(read(location))
 
 
 complete_package("launch_yaml", {"launch_yaml.launch_description_sources": "YAMLLaunchDescriptionSource"})
