@@ -61,7 +61,6 @@ class LaunchService:
         self._timers = 0
         self._settling = False
         self._helper: RosHelper | None = None
-        self._said_level = False
         self._warnings: set[str] = set()
         self._left_out: dict[LaunchDescriptionEntity, str] = {}
         self.failed = False
@@ -161,9 +160,7 @@ class LaunchService:
 
         Raises LaunchError if something is wrong with it. If it is found while walking, nothing was started.
         """
-        if not self._said_level:
-            self.say("INFO", "launch", "Default logging verbosity is set to INFO")
-            self._said_level = True
+        self.say("INFO", "launch", "Default logging verbosity is set to INFO")
         with self._inside():
             try:
                 self.visit(entity)
@@ -214,13 +211,6 @@ class LaunchService:
             self._settling = False
             if self._helper is not None and not self.running:
                 self._helper.close()
-
-    def begin_or_fail(self, entity: LaunchDescriptionEntity) -> None:
-        """The same for a program's own `LaunchService`, where an error ends the launch and is printed."""
-        try:
-            self.begin(entity)
-        except LaunchError as error:
-            self._fail(error)
 
     def _fail(self, error: LaunchError) -> None:
         self.failed = True

@@ -69,7 +69,8 @@ class LaunchContext:
         self.launch_configurations: dict[str, Any] = {}
         self.environment = dict(os.environ)
         self._scopes: defaultdict[str, list[dict[str, Any]]] = defaultdict(list)
-        self._host: LaunchService | None = None
+        self._host: LaunchService
+        """What carries the launch out; a context in which substitutions are merely performed has none."""
         self._configurations_read: set[str] = set()
         self._output_override: str | None = None
         self._include_depth = 0
@@ -115,8 +116,7 @@ class LaunchContext:
     def emit_event_sync(self, event: Event) -> None:
         """Queue an event; it is handled after what is being done now."""
         self._event_queue.append(event)
-        if self._host is not None:
-            self._host.settle_soon()
+        self._host.settle_soon()
 
     def perform_substitution(self, substitution: Substitution) -> str:
         """The substitution's text in this context."""

@@ -11,7 +11,6 @@ from turtle_lesson.ros.sim.strand import running_strand
 
 from ._context import Event, LaunchContext
 from ._entities import LaunchDescription
-from .actions import EmitEvent
 from .events import IncludeLaunchDescription
 
 if TYPE_CHECKING:
@@ -58,8 +57,9 @@ class LaunchService:
 
     def _run(self, shutdown_when_idle: bool) -> int:
         self._runs = True
-        while self._early and not self._launch.failed:
-            self._launch.begin_or_fail(EmitEvent(event=self._early.pop(0)))
+        self._launch.say("INFO", "launch", "Default logging verbosity is set to INFO")
+        self._launch.carry_on(lambda: self.context._event_queue.extend(self._early))
+        self._early.clear()
         while self._launch.running or not (shutdown_when_idle or self.context.is_shutdown):
             try:
                 time.sleep(LOOKS)

@@ -195,8 +195,7 @@ class TimerAction(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Begin to wait."""
-        host = context._host
-        if self.__cancelled or host is None:
+        if self.__cancelled:
             return
         if self.__cancel_on_shutdown:
             context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: self.cancel()))
@@ -204,10 +203,10 @@ class TimerAction(Action):
         def time_is_over() -> None:
             if not self.__cancelled:
                 for each in self.actions:
-                    host.visit(each)
+                    context._host.visit(each)
                 self._complete(context)
 
-        host.call_later(float(text_of(context, self.period)), time_is_over)
+        context._host.call_later(float(text_of(context, self.period)), time_is_over)
 
 
 class OpaqueFunction(Action):

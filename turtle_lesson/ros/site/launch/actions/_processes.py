@@ -167,8 +167,7 @@ class ExecuteProcess(Action):
         before = text_of(context, self._prefix).split()
         self.prefix_left_out = PurePath(before[0]).name if before else ""  # such as a terminal or a debugger
         self.cmd = [text_of(context, word) for word in self._words]
-        number = next(context._host.numbers) if context._host is not None else 1
-        self.name = f"{text_of(context, self._name) or os.path.basename(self.cmd[0])}-{number}"
+        self.name = f"{text_of(context, self._name) or os.path.basename(self.cmd[0])}-{next(context._host.numbers)}"
         alone = context.environment if self._env is None else _variables(context, self._env)
         self._program = self._find_program(context)
         self._respawns = evaluate_condition_expression(context, self.__respawn)
@@ -192,11 +191,10 @@ class ExecuteProcess(Action):
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the process started."""
         self.prepare(context)
-        if context.is_shutdown or context._host is None:
-            return None
-        if self.__on_exit is not None:
-            context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
-        context._host.start_process(self)
+        if not context.is_shutdown:
+            if self.__on_exit is not None:
+                context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+            context._host.start_process(self)
         return None
 
     def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:

@@ -114,9 +114,7 @@ class LifecycleNode(Node):
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the node started, and listen to it."""
         entities = super().execute(context) or []
-        host = context._host
-        if host is None:
-            return entities
+        helper = context._host.ros_helper()
 
         def changed(msg: TransitionEvent) -> None:
             context.emit_event_sync(StateTransition(action=self, msg=msg))
@@ -131,9 +129,9 @@ class LifecycleNode(Node):
                         f"for LifecycleNode '{self.node_name}'"
                     )
 
-            host.ros_helper().change_state(self.node_name, transition, answered)
+            helper.change_state(self.node_name, transition, answered)
 
-        host.ros_helper().watch(self.node_name, changed)
+        helper.watch(self.node_name, changed)
         context.register_event_handler(
             EventHandler(
                 matcher=lambda event: isinstance(event, ChangeState) and event.lifecycle_node_matcher(self),
