@@ -10,7 +10,6 @@ from array import array
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from math import isfinite
 from typing import Any
 
 from . import checks, message
@@ -97,7 +96,7 @@ def literal(base: str, value: Plain | bytes) -> str:
     """Source text of a default value or constant."""
     if base == "byte" and isinstance(value, int):
         return repr(bytes([value]))
-    return repr(value) if not isinstance(value, float) or isfinite(value) else f"_float('{value}')"
+    return repr(value)
 
 
 def zero(base: str) -> Plain | bytes:
@@ -169,7 +168,7 @@ def _sequence_kind(member: Field, key: str) -> Kind:
     return Kind(
         name=member.name,
         check=check,
-        fresh=f"_array('{code}'{_finite(start)})",
+        fresh=f"_array('{code}'{start})",
         test=f"_type({{value}}) is _array and {{value}}.typecode == '{code}'{limits}",
         copy="{value}[:]",
         construct=f"{check}({made})" if type_.is_bounded else made,
@@ -180,7 +179,7 @@ def _sequence_kind(member: Field, key: str) -> Kind:
 def _numpy_kind(member: Field, key: str) -> Kind:
     type_, check = member.type, f"_check_{key}"
     name = checks.numpy_name(type_.base)
-    given = isinstance(member.default, tuple) and _finite(repr(list(member.default)))
+    given = isinstance(member.default, tuple) and repr(list(member.default))
     return Kind(
         name=member.name,
         check=check,
@@ -231,11 +230,6 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
 def class_variable(message_class: type) -> str:
     """Global name of a message class in generated modules."""
     return "_class_" + message_class._TYPE_NAME.replace("/", "_")  # type: ignore[attr-defined]
-
-
-def _finite(text: str) -> str:
-    """Let `nan` and `inf` in a list's text be found as globals."""
-    return text.replace("nan", "_nan").replace("inf", "_inf")
 
 
 # -- the text of whole classes ----------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from functools import cache
 from hashlib import sha256
 from importlib.util import MAGIC_NUMBER
 from io import FileIO
-from math import inf, isfinite, nan
+from math import isfinite
 from pathlib import Path
 from struct import Struct
 from types import CodeType, ModuleType
@@ -42,7 +42,7 @@ _SHARED = (
 )  # fmt: skip
 COMMON: dict[str, Any] = {
     **{f"_{each.__name__}": each for each in (array, *_BUILT_IN, *_SHARED)},
-    **{"_inf": inf, "_nan": nan, "_new": object.__new__, "_plain_text": message.plain_text},
+    **{"_new": object.__new__, "_plain_text": message.plain_text},
 }
 """The globals of each generated module."""
 
