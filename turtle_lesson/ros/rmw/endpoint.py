@@ -29,15 +29,24 @@ class End:
         self.profile: Any = None
         """The profile that the program gave, for displays of this end."""
         self.tallies: dict[str, Tally] = {}
+        self._deadline: Watchdog | None = None
 
     def listen(self, kind: str) -> Tally:
         """Count from now on, or go on counting, how often something of this kind happens.
 
-        What has happened already is news for the first listener.
+        What has happened already is news for the first listener. One for missed deadlines has the messages watched, from the
+        next one on.
         """
         if kind not in self.tallies:
-            self.tallies[kind] = self._tally_of(kind)
+            tally = self.tallies[kind] = self._tally_of(kind)
+            if kind == DEADLINE and self.quality.deadline is not None:
+                self._deadline = Watchdog(self.topic.simulation, self.quality.deadline, tally.add, repeats=True)
+                self.arrange()
         return self.tallies[kind]
+
+    def arrange(self) -> None:
+        """Decide again what is done with each message."""
+        raise NotImplementedError
 
     def happens(self, kind: str, *steps: Any) -> None:
         """Something happens to this end now."""

@@ -73,10 +73,9 @@ class Graph:
 
     def remove_node(self, node: NodeEntry) -> None:
         """A node leaves, and with it all its ends."""
-        for writer in list(node.writers):
-            self.remove_topic_end(writer)
-        for reader in list(node.readers):
-            self.remove_topic_end(reader)
+        ends: list[Writer | Reader] = [*node.writers, *node.readers]
+        for end in ends:
+            self.remove_topic_end(end)
         for server in list(node.servers):
             self.remove_server(server)
         for client in list(node.clients):

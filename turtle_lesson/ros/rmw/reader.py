@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from .endpoint import DEADLINE, LIVELINESS, End, Quality, Tally, Watchdog
+from .endpoint import LIVELINESS, End, Quality, Tally
 from .transport import nobody
 
 if TYPE_CHECKING:
@@ -27,7 +27,6 @@ class Reader(End):
         self.beside: list[deque[Any]] = []
         """Queues in step with `queue`, which somebody keeps beside it."""
         self.wake: Callable[[], object] = nobody
-        self._deadline: Watchdog | None = None
 
     def keep_times(self) -> None:
         """From now on keep, beside each message, when it was sent and when it arrived (ns)."""
@@ -48,15 +47,10 @@ class Reader(End):
         """See End."""
         return len(self.writers())
 
-    def listen(self, kind: str) -> Tally:
-        """See End. A listener for missed deadlines makes the reader watch the messages, from the next one on."""
-        tally = super().listen(kind)
-        period = self.quality.deadline
-        if kind == DEADLINE and period is not None and self._deadline is None:
-            self._deadline = Watchdog(self.topic.simulation, period, tally.add, repeats=True)
-            for writer in self.writers():
-                writer.arrange()
-        return tally
+    def arrange(self) -> None:
+        """See End: it is the writers that decide."""
+        for writer in self.writers():
+            writer.arrange()
 
     def _tally_of(self, kind: str) -> Tally:
         if kind == LIVELINESS:

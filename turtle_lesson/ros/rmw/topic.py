@@ -38,10 +38,6 @@ class Topic:
         """The type names in use here, sorted: more than one is a mistake that ROS allows between processes."""
         return sorted(self._types)
 
-    def has(self, writer: Writer) -> bool:
-        """Whether a publisher is (still) here."""
-        return any(each is writer for each, _ in self.writers)
-
     def use(self, conditions: Conditions | None) -> None:
         """Have messages travel under these conditions from now on; None for the usual ones."""
         if conditions != self.conditions:

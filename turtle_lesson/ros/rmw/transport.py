@@ -41,7 +41,10 @@ Deliver = Callable[[Any, int], object]
 
 
 class Line:
-    """Base class: `deliver` gets what arrives, `told` how many messages are known to be lost."""
+    """Base class: `deliver` gets what arrives, `told` how many messages are known to be lost.
+
+    Subclasses `send` messages, and tell what is `under_way`.
+    """
 
     def __init__(
         self,
@@ -66,14 +69,6 @@ class Line:
         self.conditions = conditions or USUAL
         if self._random is None and (self.conditions.loss or self.conditions.jitter):
             self._random = self._network.random(self._ends)
-
-    def send(self, wire: Any, sent: int) -> None:
-        """Take a message (a copy of its own) that was published at `sent` (ns)."""
-        raise NotImplementedError
-
-    def under_way(self) -> list[tuple[int, Any]]:
-        """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
-        raise NotImplementedError
 
     def next_look(self) -> int | None:
         """When (ns) to look again whether everything has arrived; None if it has, or if nobody will ever know."""
@@ -109,14 +104,14 @@ class BestEffortLine(Line):
         self._travelling: dict[int, tuple[int, Any]] = {}
 
     def send(self, wire: Any, sent: int) -> None:
-        """See Line."""
+        """Take a message (a copy of its own) that was published at `sent` (ns)."""
         self._sent += 1
         if not self._is_lost():
             self._travelling[self._sent] = (sent, wire)
             self._simulation.at(self._simulation.now + self._way(), self._arrive, self._sent)
 
     def under_way(self) -> list[tuple[int, Any]]:
-        """See Line."""
+        """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
         return [self._travelling[number] for number in sorted(self._travelling) if number >= self._expected]
 
     def _arrive(self, number: int) -> None:
@@ -165,7 +160,7 @@ class ReliableLine(Line):
             self._ask_again()
 
     def send(self, wire: Any, sent: int) -> None:
-        """See Line."""
+        """Take a message (a copy of its own) that was published at `sent` (ns)."""
         parcel = _Parcel(wire, sent)
         self._parcels.append(parcel)
         if len(self._parcels) > 1:
@@ -173,7 +168,7 @@ class ReliableLine(Line):
         self._transmit(parcel)
 
     def under_way(self) -> list[tuple[int, Any]]:
-        """See Line."""
+        """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
         return [(each.sent, each.wire) for each in self._parcels if each.here or each.due is not None]
 
     def next_look(self) -> int | None:

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .endpoint import DEADLINE, LIVELINESS, MATCHED, MESSAGE_LOST, End, Quality, Tally, Watchdog
+from .endpoint import LIVELINESS, MATCHED, MESSAGE_LOST, End, Quality, Watchdog
 from .reader import Reader
-from .transport import BestEffortLine, Line, ReliableLine
+from .transport import BestEffortLine, ReliableLine
 
 if TYPE_CHECKING:
     from .graph import NodeEntry
@@ -35,9 +35,8 @@ class Writer(End):
         self._simulation = topic.simulation
         self._latency = topic.latency
         self._usual: tuple[Reader, ...] = ()
-        self._lines: dict[Reader, Line] = {}
+        self._lines: dict[Reader, BestEffortLine | ReliableLine] = {}
         self._kept: deque[tuple[int, Any]] | None = deque(maxlen=quality.depth) if quality.latched else None
-        self._deadline: Watchdog | None = None
         self._lease: Watchdog | None = None
         if quality.manual and quality.lease is not None:
             self._lease = Watchdog(topic.simulation, quality.lease, self._fall_silent, repeats=False)
@@ -93,7 +92,7 @@ class Writer(End):
         self._also = None if not steps else steps[0] if len(steps) == 1 else partial(_do_all, steps)
         self._idle = not steps and not self._usual and self.note is None
 
-    def _line_to(self, reader: Reader) -> Line:
+    def _line_to(self, reader: Reader) -> BestEffortLine | ReliableLine:
         lifespan = self.quality.lifespan
         deliver = reader.take_in if lifespan is None else partial(reader.take_in, lifespan=lifespan)
         told = partial(reader.happens, MESSAGE_LOST)
@@ -172,7 +171,7 @@ class Writer(End):
         """One of the two goes: send nothing more to this reader."""
         self.readers = tuple(each for each in self.readers if each is not reader)
         line = self._lines.pop(reader, None)
-        if line is not None and self.topic.has(self):
+        if line is not None and any(each is self for each, _ in self.topic.writers):
             line.close()
         elif line is not None:
             line.linger()
@@ -183,15 +182,6 @@ class Writer(End):
         reader.misses()
 
     # -- deadline and liveliness -------------------------------------------------------------------------------------
-
-    def listen(self, kind: str) -> Tally:
-        """See End. A listener for missed deadlines makes the writer watch the messages, from the next one on."""
-        tally = super().listen(kind)
-        period = self.quality.deadline
-        if kind == DEADLINE and period is not None and self._deadline is None:
-            self._deadline = Watchdog(self._simulation, period, tally.add, repeats=True)
-            self.arrange()
-        return tally
 
     def assert_liveliness(self, _: object = None) -> None:
         """Show that this publisher lives. What it publishes shows that, too."""
