@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -35,14 +34,6 @@ MARK = "worlds"
 
 WORLD = ("package", "distro", "start_order")
 SETTING = {name: getattr(Setting(b""), name) for name in (*WORLD, "simulator", "robot_time")}
-
-
-@dataclass(frozen=True)
-class Place:
-    """The world of one test."""
-
-    run: Run
-    setting: Setting
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -65,25 +56,21 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
             raise ExperimentError(f"give what you mean by name: @pytest.mark.{MARK}(seeds={mark.args[0]!r})")
         if "lesson" not in metafunc.fixturenames:
             raise ExperimentError(f"it must take the world as its parameter: def {name}(lesson): …")
-        places, swept = _places(metafunc, dict(mark.kwargs))
+        runs, swept, setting = _planned(metafunc, dict(mark.kwargs))
     except ExperimentError as error:
         wrong = str(error)
     if wrong:
         pytest.fail(f"{name}, marked with @pytest.mark.{MARK}: {wrong}", pytrace=False)
-    values = [
-        [f"{name}={value}" for name, value in place.run.parameters.items()] + [f"seed{place.run.seed}"]
-        for place in places
-    ]
     metafunc.parametrize(
         [*swept, "lesson"],
-        [[*place.run.parameters.values(), place] for place in places],
-        ids=map("-".join, values),
+        [[*run.parameters.values(), (run, setting)] for run in runs],
+        ids=["".join(f"{name}={value}-" for name, value in run.parameters.items()) + f"seed{run.seed}" for run in runs],
         indirect=["lesson"],
     )
 
 
-def _places(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Place], list[str]]:
-    """The worlds of a test in their order, and the names of what is swept. Raises ExperimentError."""
+def _planned(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Run], list[str], Setting]:
+    """The runs of a test in their order, the names of what is swept, and what they share. Raises ExperimentError."""
     seeds = given.pop("seeds", 10)
     seeds = range(seeds) if isinstance(seeds, int) and not isinstance(seeds, bool) else seeds
     setting = {name: given.pop(name, value) for name, value in SETTING.items()}
@@ -98,15 +85,15 @@ def _places(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Plac
     for name in given:
         if accepted[name].default is not inspect.Parameter.empty:
             raise ExperimentError(f"{name} has a default, which pytest never replaces: leave =… out in the parameters")
-    return [Place(run, Setting(b"", **setting)) for run in runs], swept
+    return runs, swept, Setting(b"", **setting)
 
 
 @pytest.fixture
 def lesson(request: pytest.FixtureRequest) -> Iterator[Lesson]:
     """A fresh world, which is closed at the end of the test: see `turtle_lesson.start`."""
-    place = getattr(request, "param", None) or Place(Run(0, 0), Setting(b""))
+    run, setting = getattr(request, "param", (Run(0, 0), Setting(b"")))
     with Surroundings().hold():
-        opened = open_run(place.setting, place.run)
+        opened = open_run(setting, run)
         try:
             yield opened
         finally:
@@ -118,9 +105,10 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestR
     """Say below a failure how to open its run in a notebook."""
     report = yield
     place = getattr(item, "callspec", None) and item.callspec.params.get("lesson")  # type: ignore[attr-defined]
-    if report.when == "call" and report.failed and isinstance(place, Place):
-        given = {"seed": place.run.seed, **place.run.parameters}
-        asked = {name: getattr(place.setting, name) for name in SETTING}
+    if report.when == "call" and report.failed and item.get_closest_marker(MARK) and place:
+        run, setting = place
+        given = {"seed": run.seed, **run.parameters}
+        asked = {name: getattr(setting, name) for name in SETTING}
         given |= {name: value for name, value in asked.items() if value != SETTING[name]}
         function = item.originalname  # type: ignore[attr-defined]
         words = ", ".join([function, *(f"{name}={value!r}" for name, value in given.items())])

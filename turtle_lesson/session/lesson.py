@@ -88,7 +88,11 @@ def start(
     files.begin_terminal()
     if page is not None:
         print(workspace().prepare(page).state())
-    mine = _built(seed, distro, workspace()) if package == "mine" else None
+    mine = workspace() if package == "mine" else None
+    if mine is not None and (mine.package / "package.xml").exists() and not mine.is_built:
+        build_world = _fresh_world(seed, distro)  # building takes robot time, and the lesson's world begins at 0 s
+        if said := mine.build(build_world):
+            print(f"{said.rstrip()}\nThe package was not built, so an earlier build of it is used, if there is one.")
     world = _fresh_world(seed, distro)
     if start_order == "shuffled":
         world.start_order = Random(f"{seed}/start order")
@@ -106,15 +110,6 @@ def _fresh_world(seed: int, distro: str | None) -> World:
     for each in underlay_packages():
         world.packages.add(each)
     return world
-
-
-def _built(seed: int, distro: str | None, mine: Workspace) -> Workspace:
-    """The learner's workspace, built if its sources have changed. Prints what the build says where it fails."""
-    if (mine.package / "package.xml").exists() and not mine.is_built:
-        build_world = _fresh_world(seed, distro)  # building takes robot time, and the lesson's world begins at 0 s
-        if said := mine.build(build_world):
-            print(f"{said.rstrip()}\nThe package was not built, so an earlier build of it is used, if there is one.")
-    return mine
 
 
 def check_seconds(call: str, seconds: object) -> None:

@@ -281,6 +281,7 @@ class Inspection(Views):
         """
         from ..lab.graph import plot_graph
         from ..lab.prompts import code_of, compose
+        from ..lab.words import number
 
         if code is None:
             # the learner's own robot_controller, and nothing while there is only the finished one, or none
@@ -289,7 +290,11 @@ class Inspection(Views):
             code = [] if source is None or source.resolve() == FINISHED else source
         texts = code_of(code)
         graph = plot_graph(self._recording.node).text
-        log = [_log_line(*line) for line in list(self._trace.log)[-lines:]] if lines > 0 else []
+        levels = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
+        log = [
+            f"[{levels.get(level, level)}] [{number(time / NANOSECONDS, 3)}] [{name}]: {text}"
+            for time, level, name, text in (list(self._trace.log)[-lines:] if lines > 0 else [])
+        ]
         return compose(kind, texts, self._errors(), graph, log, self._trace.now / NANOSECONDS)
 
     def _errors(self) -> str:
@@ -300,14 +305,6 @@ class Inspection(Views):
         if isinstance(last, Exception) and all(last is not error for _, error in ended):
             texts.append(format_error(last))
         return "\n".join(texts)
-
-
-def _log_line(time: int, level: int, name: str, text: str) -> str:
-    """One line of the log as the terminal shows it, with seconds of robot time."""
-    from ..lab.words import number
-
-    word = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}.get(level, str(level))
-    return f"[{word}] [{number(time / NANOSECONDS, 3)}] [{name}]: {text}"
 
 
 @cache

@@ -72,14 +72,11 @@ class Graded:
         return sum(each.points for each in self.scores)
 
 
-Told = Callable[[int, int, Graded], object]
-
-
 def grade(
     copies: Sequence[Copy],
     timeout: float,
     jobs: int = 1,
-    told: Told | None = None,
+    told: Callable[[int, int, Graded], object] | None = None,
     memory: float = MEMORY,
     client: str | None = None,
 ) -> list[Graded]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from ..words import angle, count, number, turned
 from .assertions import no_errors, node, publishes, rate, some, subscribes
@@ -75,24 +74,16 @@ SPEED, TURN, CIRCLE = 0.5, 1.6, 4.0
 """The turtle is driven so fast, m/s and rad/s, for so long, s: a whole circle, 0.6 m wide."""
 
 
-@dataclass
-class Ride:
-    """What the status said while the turtle drove a circle, and in the second after that.
-
-    Attributes:
-        pairs: each status, with the pose before it.
-        driving: the pairs during the drive.
-        at_rest: the statuses after the turtle had stopped.
-    """
-
-    pairs: list[tuple[Heard, Heard]]
-    driving: list[tuple[Heard, Heard]]
-    at_rest: list[Heard]
+Pair = tuple[Heard, Heard]
+"""A status, and the pose before it."""
 
 
 @remembered
-def ride(probe: Probe) -> Ride:
-    """Drive the turtle in a circle. Raises CannotLook where nothing is heard, or the turtle does not move."""
+def ride(probe: Probe) -> tuple[list[Pair], list[Pair], list[Heard]]:
+    """Drive the turtle in a circle: all pairs, those during the drive, and the statuses after the turtle had stopped.
+
+    Raises CannotLook where nothing is heard, or the turtle does not move.
+    """
     poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
     probe.wait(0.3)
     began, first_pose, first_status = probe.now, len(poses), len(statuses)
@@ -108,12 +99,12 @@ def ride(probe: Probe) -> Ride:
     if not pairs:
         raise CannotLook(f"no message came on {STATUS} while the turtle drove")
     driving = [(status, pose) for status, pose in pairs if began + 0.3 < status.at < ended]
-    return Ride(pairs, driving, [each for each in statuses if each.at > ended + 0.3])
+    return pairs, driving, [each for each in statuses if each.at > ended + 0.3]
 
 
 @expectation("x, y, theta follow the turtle")
 def _pose_follows(probe: Probe) -> Seen:
-    pairs = [(status.message, pose.message) for status, pose in ride(probe).pairs]
+    pairs = [(status.message, pose.message) for status, pose in ride(probe)[0]]
     x, y = (max(abs(field(a, name) - field(b, name)) for a, b in pairs) for name in ("x", "y"))
     off = max(abs(turned(field(a, "theta") - b.theta)) for a, b in pairs)
     seen = f"at most {number(x)} m off in x, {number(y)} m in y, {angle(off)} in theta"
@@ -126,7 +117,7 @@ def _velocity_follows(probe: Probe, axis: str, other: str, part: Callable[[float
     """vel_x or vel_y is the speed along that axis of the map, all around a circle; `part` is the cosine or the sine."""
     told = [
         (float(field(status.message, f"vel_{axis}")), pose.message.linear_velocity * part(pose.message.theta), pose)
-        for status, pose in ride(probe).driving
+        for status, pose in ride(probe)[1]
     ]
     if not told:
         raise CannotLook(f"no message came on {STATUS} while the turtle drove")
@@ -144,7 +135,7 @@ def _velocity_follows(probe: Probe, axis: str, other: str, part: Callable[[float
 
 @expectation("both are 0 when the turtle stands")
 def _stands(probe: Probe) -> Seen:
-    at_rest = ride(probe).at_rest
+    _, _, at_rest = ride(probe)
     if not at_rest:
         raise CannotLook(f"no message came on {STATUS} when the turtle stood")
     x, y = (float(field(at_rest[-1].message, name)) for name in ("vel_x", "vel_y"))
