@@ -177,8 +177,8 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
     assert capsys.readouterr().out == SAID
     assert len(results) == 29 and results.missing == 11 and [row["run"] for row in results.failed] == [28]
     assert results.smallest == {"loss": 0.2, "driver": "hasty"}
-    runs, swept = plan(range(5), SWEEP)
-    endings, smallest = search_failure(Backwards(), runs, swept)
+    runs = plan(range(5), SWEEP)
+    endings, smallest = search_failure(Backwards(), runs)
     assert capsys.readouterr().out == SAID
     assert [(run.number, ending.outcome) for run, ending in endings] == [
         (row["run"], row["outcome"]) for row in results
@@ -187,8 +187,8 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
 
 
 def test_nothing_that_fails_is_said(capsys: pytest.CaptureFixture[str]) -> None:
-    runs, swept = plan(range(3), {"loss": [0.1]})
-    endings, smallest = search_failure(Backwards(), runs, swept)
+    runs = plan(range(3), {"loss": [0.1]})
+    endings, smallest = search_failure(Backwards(), runs)
     assert capsys.readouterr().out == "None of the 3 runs failed.\n"
     assert len(endings) == 3 and smallest is None
     with pytest.raises(ExperimentError, match='until must be "failure" or None'):

@@ -82,7 +82,7 @@ def experiment(
     """
     _check_place()
     _check_function(function, parameters)
-    runs, swept = plan(seeds, parameters)
+    runs = plan(seeds, parameters)
     world = checked_world(package, distro, start_order)
     check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
     if until not in (None, "failure"):
@@ -101,9 +101,9 @@ def experiment(
         if until is None:
             endings = carry_out(pool, runs)
         else:
-            endings, smallest = search_failure(pool, runs, swept)
+            endings, smallest = search_failure(pool, runs)
     missing = len(runs) - len(endings)
-    results = Results(endings, swept, about=about, missing=missing, function=function, setting=setting)
+    results = Results(endings, runs[0].parameters, about=about, missing=missing, function=function, setting=setting)
     results.smallest = smallest
     defaults.get().finished(results)
     return results
@@ -127,12 +127,12 @@ def replay(
     """
     _check_place()
     _check_function(function, parameters)
-    runs, swept = plan([seed], {name: [value] for name, value in parameters.items()})
+    [run] = plan([seed], {name: [value] for name, value in parameters.items()})
     check_limits(None, robot_time=robot_time)
     world = checked_world(package, distro, start_order)
     setting = setting_for(function, simulator=simulator, robot_time=robot_time, **world)
-    table = Results([], swept)
-    return Replay(setting, runs[0], lambda ending: table.row_of(runs[0], ending))
+    table = Results([], run.parameters)
+    return Replay(setting, run, lambda ending: table.row_of(run, ending))
 
 
 def carry_out(
@@ -154,7 +154,7 @@ def carry_out(
 
 
 def search_failure(
-    pool: LocalPool | ClusterPool, runs: Sequence[Run], swept: Sequence[str]
+    pool: LocalPool | ClusterPool, runs: Sequence[Run]
 ) -> tuple[list[tuple[Run, Ending]], dict[str, Any] | None]:
     """Carry out runs in their order until one fails; then look for the smallest change with which that fails.
 
@@ -170,8 +170,7 @@ def search_failure(
     if first != run.number:  # the user has stopped it before all others of a lower number were over
         return done, None
     print(f"Run {run.number} (seed {run.seed}) failed: {ending.error or ending.outcome}")
-    base = {name: runs[0].parameters[name] for name in swept}
-    found = smallest_change(run, ending, base, lambda another: next(iter(pool.carry_out([another])))[1])
+    found = smallest_change(run, ending, runs[0].parameters, lambda another: next(iter(pool.carry_out([another])))[1])
     if text := found.told():
         print(text)
     return done[: first + 1], found.change
@@ -180,12 +179,11 @@ def search_failure(
 # -- the plan ------------------------------------------------------------------------------------------------------------
 
 
-def plan(seeds: Iterable[int], parameters: dict[str, Any]) -> tuple[list[Run], list[str]]:
-    """The runs of an experiment in their order, and the names of what is swept. Raises ExperimentError."""
+def plan(seeds: Iterable[int], parameters: dict[str, Any]) -> list[Run]:
+    """The runs of an experiment in their order. Raises ExperimentError."""
     swept = {name: _values(name, values) for name, values in parameters.items()}
     combined = itertools.product(*swept.values(), _seeds(seeds))
-    runs = [Run(number, seed, dict(zip(swept, values, strict=True))) for number, (*values, seed) in enumerate(combined)]
-    return runs, list(swept)
+    return [Run(number, seed, dict(zip(swept, values, strict=True))) for number, (*values, seed) in enumerate(combined)]
 
 
 def _seeds(seeds: Any) -> list[int]:

@@ -56,21 +56,21 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
             raise ExperimentError(f"give what you mean by name: @pytest.mark.{MARK}(seeds={mark.args[0]!r})")
         if "lesson" not in metafunc.fixturenames:
             raise ExperimentError(f"it must take the world as its parameter: def {name}(lesson): …")
-        runs, swept, setting = _planned(metafunc, dict(mark.kwargs))
+        runs, setting = _planned(metafunc, dict(mark.kwargs))
     except ExperimentError as error:
         wrong = str(error)
     if wrong:
         pytest.fail(f"{name}, marked with @pytest.mark.{MARK}: {wrong}", pytrace=False)
     metafunc.parametrize(
-        [*swept, "lesson"],
+        [*runs[0].parameters, "lesson"],
         [[*run.parameters.values(), (run, setting)] for run in runs],
         ids=["".join(f"{name}={value}-" for name, value in run.parameters.items()) + f"seed{run.seed}" for run in runs],
         indirect=["lesson"],
     )
 
 
-def _planned(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Run], list[str], Setting]:
-    """The runs of a test in their order, the names of what is swept, and what they share. Raises ExperimentError."""
+def _planned(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Run], Setting]:
+    """The runs of a test in their order, and what they share. Raises ExperimentError."""
     seeds = given.pop("seeds", 10)
     seeds = range(seeds) if isinstance(seeds, int) and not isinstance(seeds, bool) else seeds
     setting = {name: given.pop(name, value) for name, value in SETTING.items()}
@@ -79,13 +79,13 @@ def _planned(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Run
         setting["package"] = root / package
     accepted = inspect.signature(metafunc.function).parameters
     check_names(metafunc.function.__name__, given, [name for name in accepted if name not in ("self", "lesson")])
-    runs, swept = plan(seeds, given)
+    runs = plan(seeds, given)
     setting |= checked_world(*(setting[name] for name in WORLD))
     check_limits(None, robot_time=setting["robot_time"])
     for name in given:
         if accepted[name].default is not inspect.Parameter.empty:
             raise ExperimentError(f"{name} has a default, which pytest never replaces: leave =… out in the parameters")
-    return runs, swept, Setting(b"", **setting)
+    return runs, Setting(b"", **setting)
 
 
 @pytest.fixture

@@ -53,7 +53,7 @@ class Results(Table):
     def __init__(
         self,
         endings: Iterable[tuple[Run, Ending]],
-        swept: Sequence[str],
+        swept: Iterable[str],
         *,
         about: dict[str, Any] | None = None,
         missing: int = 0,
@@ -67,7 +67,7 @@ class Results(Table):
         self.function, self.setting = function, setting
         self._returned = list(dict.fromkeys(name for _, ending in done for name in ending.values))
         rows = [self.row_of(run, ending) for run, ending in done]
-        super().__init__(rows, [*FIRST, *swept, "outcome", *self._returned, *LAST])
+        super().__init__(rows, [*FIRST, *self.swept, "outcome", *self._returned, *LAST])
 
     def where(self, **values: Any) -> Results:
         """The rows in which columns have these values: `results.where(gain=2.0)`."""

@@ -37,7 +37,9 @@ class Smallest:
         complete: whether nothing smaller fails, as far as this search can tell; False if it was ended before.
     """
 
-    def __init__(self, failed: Run, ending: Ending, base: dict[str, Any], carry_out: Callable[[Run], Ending]) -> None:
+    def __init__(
+        self, failed: Run, ending: Ending, base: Mapping[str, Any], carry_out: Callable[[Run], Ending]
+    ) -> None:
         self.run, self.ending, self.base = failed, ending, base
         self.tried = 0
         self.complete = False
@@ -48,10 +50,7 @@ class Smallest:
     @property
     def change(self) -> dict[str, Any]:
         """The parameters that differ from their base, with their values."""
-        return {name: value for name, value in self._values().items() if not _equal(value, self.base[name])}
-
-    def _values(self) -> dict[str, Any]:
-        return {name: self.run.parameters[name] for name in self.base}
+        return {name: value for name, value in self.run.parameters.items() if not _equal(value, self.base[name])}
 
     def told(self) -> str:
         """The change in a sentence."""
@@ -68,22 +67,22 @@ class Smallest:
         """Make the change smaller until nothing changes, or until there were too many runs."""
         searched: dict[str, list[Any]] = {}
         while self.tried < MOST_RUNS and not self.complete:
-            before = self._values()
+            before = self.run.parameters
             for name in before:
                 self._fails_with(name, self.base[name])
             for name in before:
-                others = [value for other, value in self._values().items() if other != name]
+                others = [value for other, value in self.run.parameters.items() if other != name]
                 if searched.get(name) != others:  # or it is known already
                     searched[name] = others
                     self._bisect(name)
-            self.complete = self.tried < MOST_RUNS and self._values() == before
+            self.complete = self.tried < MOST_RUNS and self.run.parameters == before
 
     def _fails_with(self, name: str, value: Any) -> bool:
         """Whether the run still fails with another value; then it is kept."""
         if _equal(self.run.parameters[name], value):
             return True
         run = replace(self.run, parameters=self.run.parameters | {name: value})
-        key = repr([run.parameters[each] for each in self.base])
+        key = repr(list(run.parameters.values()))
         if key in self._passes or self.tried >= MOST_RUNS:
             return False
         self.tried += 1
@@ -120,7 +119,7 @@ def smallest_change(
 
     A stop by the user (KeyboardInterrupt) ends the search with what is known by then.
     """
-    found = Smallest(failed, ending, dict(base), carry_out)
+    found = Smallest(failed, ending, base, carry_out)
     try:
         found.search()
     except KeyboardInterrupt:

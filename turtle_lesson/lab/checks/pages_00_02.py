@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -39,45 +38,34 @@ def face_up() -> list[Expectation]:
     ]
 
 
-@dataclass(frozen=True)
-class Motion:
-    """The turtle's motion since it was at rest before the last command: how far it turned (rad, to the left) and drove (m).
-
-    `command` is the turning speed that the last command asked for, rad/s.
-    """
-
-    turn: float = 0.0
-    way: float = 0.0
-    command: float = 0.0
-
-
 @remembered
-def last_motion(probe: Probe) -> Motion:
-    """What the turtle did last, from what was recorded of it; so a cell that was run twice is judged by its second run."""
+def last_motion(probe: Probe) -> tuple[float, float, float]:
+    """What the turtle did since it was at rest before the last command: how far it turned (rad, to the left) and drove (m), and
+    the turning speed that the command asked for (rad/s). So a cell that was run twice is judged by its second run."""
     record = probe.target.recording
     poses, commands = record.poses.array(), record.commands.newest(1)
     if not len(commands):
-        return Motion()
+        return 0.0, 0.0, 0.0
     command = float(commands[0]["turn"])
     x, y, theta = (poses[name].astype(float) for name in ("x", "y", "theta"))
     way = np.hypot(np.diff(x), np.diff(y))
     turn = np.angle(np.exp(1j * np.diff(theta)))
     moves = np.flatnonzero((way > 1e-6) | (np.abs(turn) > 1e-6))
     if not len(moves) or poses["stamp"][moves[-1] + 1] < commands[0]["stamp"]:
-        return Motion(command=command)
+        return 0.0, 0.0, command
     # what has not moved for half a second has come to rest, and what it does then is a new motion
     rests = np.flatnonzero(np.diff(poses["stamp"][moves]) > 0.5 * NANOSECONDS)
     first = moves[rests[-1] + 1] if len(rests) else moves[0]
-    return Motion(float(turn[first:].sum()), float(way[first:].sum()), command)
+    return float(turn[first:].sum()), float(way[first:].sum()), command
 
 
 def _facing_up(probe: Probe) -> Seen:
-    heading, motion = where(probe).theta, last_motion(probe)
-    good = abs(turned(heading - UP)) <= LITTLE or abs(motion.turn - UP) <= LITTLE
-    seen = f"its heading is {angle(heading)}; the last command said angular.z = {number(motion.command)} rad/s"
+    heading, (turn, _, command) = where(probe).theta, last_motion(probe)
+    good = abs(turned(heading - UP)) <= LITTLE or abs(turn - UP) <= LITTLE
+    seen = f"its heading is {angle(heading)}; the last command said angular.z = {number(command)} rad/s"
     degrees = "That is many times round in one second: ROS measures angles in radians, not in degrees."
     advice = Advice(
-        symptom=degrees if abs(motion.command) > 2 * math.pi else "",
+        symptom=degrees if abs(command) > 2 * math.pi else "",
         direction="A command counts for one second. Which turning speed makes a quarter turn in one second, and to which side?",
         hint="Open the hint under the exercise.",
     )
@@ -85,7 +73,7 @@ def _facing_up(probe: Probe) -> Seen:
 
 
 def _on_the_spot(probe: Probe) -> Seen:
-    way = last_motion(probe).way
+    _, way, _ = last_motion(probe)
     advice = "Which field of the command makes it drive? To begin again: ros2 service call /reset std_srvs/srv/Empty"
     return Seen(way <= LITTLE, f"it drove {number(way)} m meanwhile", advice)
 
