@@ -90,14 +90,9 @@ class CheckTarget:
         given = [(name, str(value)) for name, value in arguments.items()]
         apart = [PushRosNamespace(namespace), *(SetRemap(old, new) for old, new in renamed.items())]
         group = GroupAction([*apart, IncludeLaunchDescription(source, launch_arguments=given)])
-        handle = launching.launch_description(self._world, LaunchDescription([group]))
-        try:
-            handle.wait_until_up()
+        with self.ending_programs():
+            launching.launch_description(self._world, LaunchDescription([group])).wait_until_up()
             yield
-        finally:
-            with redirect_stdout(io.StringIO()):  # what programs say when they are interrupted
-                handle.stop()
-                self.step(0.1)
 
     @contextmanager
     def ending_programs(self) -> Iterator[None]:
@@ -106,7 +101,7 @@ class CheckTarget:
         try:
             yield
         finally:
-            with redirect_stdout(io.StringIO()):
+            with redirect_stdout(io.StringIO()):  # what programs say when they are interrupted
                 for each in list(self._world.processes):
                     if each.alive and all(each is not old for old in before):
                         each.interrupt()
