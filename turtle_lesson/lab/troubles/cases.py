@@ -135,23 +135,18 @@ class Case:
     check: Callable[[], CheckResult]
 
     @property
-    def report(self) -> str:
-        """What a user says."""
-        return self._trouble.report
-
-    @property
     def _title(self) -> str:
         return f"Case {self.number}, {self.trouble}" if self.trouble else f"Case {self.number}"
 
     def __repr__(self) -> str:
         return (
-            f"{self._title}. A user reports: “{self.report}” Look at the running system, mend it, then: case.check(). "
+            f"{self._title}. A user reports: “{self._trouble.report}” Look at the running system, mend it, then: case.check(). "
             "If you are stuck: case.hint(1), up to 3."
         )
 
     def _repr_markdown_(self) -> str:
         todo = "Look at the running system, mend it, then: `case.check()`. If you are stuck: `case.hint(1)`, up to 3."
-        return f"**{self._title}.** A user reports:\n\n> {self.report}\n\n{todo}"
+        return f"**{self._title}.** A user reports:\n\n> {self._trouble.report}\n\n{todo}"
 
     def hint(self, level: int = 1) -> str:
         """A hint: 1 says where to look, 2 with what, 3 nearly tells."""
