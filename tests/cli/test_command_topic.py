@@ -181,13 +181,6 @@ def test_a_subscription_that_asks_for_too_much_hears_nothing_and_is_told_why(wor
         assert re.fullmatch(r"data: 'Hello World: \d+'\n---\n", answer.stdout) and answer.code == 0
 
 
-def test_a_queue_of_no_length_is_warned_of_in_a_line(world: World) -> None:
-    system.start(world, system.talker)
-    answer = type_in(world, "ros2 topic echo --once /chatter --qos-depth 0")
-    assert answer.stderr == "WARNING: A zero depth with KEEP_LAST doesn't make sense; no data could be stored.\n"
-    assert (answer.stdout.count("data: "), answer.code) == (1, 0)
-
-
 def test_publishers_that_differ_are_all_heard(world: World) -> None:
     def hasty() -> None:
         from rclpy.qos import qos_profile_sensor_data

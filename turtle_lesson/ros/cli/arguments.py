@@ -174,7 +174,7 @@ def whole(least: int, refusal: str) -> Callable[[str], int]:
 positive_int = whole(1, "value must be a positive integer")
 unsigned_int = whole(0, "value must be non-negative integer")
 depth = whole(-MOST, "invalid int value: '{}'")
-"""The length of a queue; a negative one is accepted, and without effect."""
+"""The length of a queue; 0 or less is accepted, and without effect."""
 
 
 # -- arguments that several verbs have ---------------------------------------------------------------------------------

@@ -13,7 +13,19 @@ from ..idl.names import is_hidden
 from ..runtime.world import current_world
 from .arguments import ALL_NODES, COUNT_NODES, HIDDEN_NODES, NODE, arg, flag
 from .jobs import jobs
-from .verb import CommandError, ask, direct_node, find_node, node_names, services, suggest, topics, verb
+from .verb import (
+    CommandError,
+    ask,
+    direct_node,
+    find_node,
+    node_names,
+    print_names,
+    services,
+    suggest,
+    topics,
+    verb,
+    with_types,
+)
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -29,14 +41,7 @@ def list_nodes(args: Namespace) -> None:
         names = node_names(node, include_hidden=args.all)
     if len(set(names)) < len(names) and not args.count_nodes:
         print(TWINS, file=sys.stderr)
-    _print_or_count(names, args)
-
-
-def _print_or_count(names: list[str], args: Namespace) -> None:
-    if args.count_nodes:
-        print(len(names))
-    elif names:
-        print(*names, sep="\n")
+    print_names(names, count=args.count_nodes)
 
 
 @verb(
@@ -102,7 +107,7 @@ def nodes(args: Namespace) -> None:
     """The names of the managed nodes."""
     with direct_node(args) as node:
         found = _managed(node, args.all)
-    _print_or_count(found, args)
+    print_names(found, count=args.count_nodes)
 
 
 @verb(
@@ -204,8 +209,8 @@ def _counted(things: Sized, name: str) -> str:
 def _report(node: Node) -> None:
     lists = {
         "NODES": node_names(node),
-        "TOPICS": [f"{name} [{', '.join(types)}]" for name, types in topics(node).items()],
-        "SERVICES": [f"{name} [{', '.join(types)}]" for name, types in services(node).items()],
+        "TOPICS": with_types(topics(node)),
+        "SERVICES": with_types(services(node)),
         "JOBS": [f"%{job.number} {job.words}" for job in jobs(current_world()).running],
     }
     for title, lines in lists.items():

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import time
 from argparse import Namespace
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from . import topic_listen  # noqa: F401 - echo, hz, bw and delay are verbs of this command
 from .arguments import LONGEST, NODE, NODE_WITHOUT_DAEMON, arg, duration, either, flag, frequency, seconds, unsigned_int
@@ -29,6 +28,7 @@ from .verb import (
     expanded,
     now,
     of_the_simulator,
+    print_names,
     publishers,
     spin_for,
     stretch_of,
@@ -36,6 +36,7 @@ from .verb import (
     suggest,
     topics,
     verb,
+    with_types,
 )
 
 if TYPE_CHECKING:
@@ -76,6 +77,8 @@ PRESET = "system_default"
 )
 def pub(args: Namespace) -> None:
     """Publish a message on a topic."""
+    from rclpy.task import Future
+
     profile = profile_of(args, PRESET, reliability="reliable", durability="transient_local", history="keep_last")
     times = 1 if args.once else args.times
     needed = args.wait_matching_subscriptions
@@ -90,7 +93,27 @@ def pub(args: Namespace) -> None:
         setters = populate(message, values)  # the real tool looks at fields only when somebody subscribes
         publisher = node.create_publisher(kind, expanded(node, args.topic_name), profile)
         _wait_for_subscriptions(node, publisher, (1 if times else 0) if needed is None else needed)
-        _publish(node, publisher, message, args, times, setters)
+        done, count = Future(), 0
+        endless = None if times else stretch_of(args)
+
+        def publish() -> None:
+            nonlocal count
+            count += 1
+            stamp(setters, node)
+            if args.print and count % args.print == 0:
+                print(f"publishing #{count}: {message!r}\n")
+            publisher.publish(message)
+            if count == times:
+                done.set_result(True)
+
+        print("publisher: beginning loop")
+        publish()
+        if times != 1:
+            timer = node.create_timer(1 / args.rate, publish)
+            if not spin_for(node, endless, done) and endless is not None:
+                raise end_of_stretch(endless)
+            node.destroy_timer(timer)
+        time.sleep(args.keep_alive)
 
 
 def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> None:
@@ -133,37 +156,6 @@ def _why_too_few(node: Node, publisher: Publisher, needed: int) -> tuple[str, st
     return f"{waited}: {name} has {_matched(node, publisher)} subscription(s), not {needed}", ""
 
 
-def _publish(
-    node: Node, publisher: Publisher, message: Any, args: Namespace, times: int, setters: list[Callable[[Any], None]]
-) -> None:
-    """Publish so many times (0: without end), at a rate."""
-    from rclpy.task import Future
-
-    done, count = Future(), 0
-    stretch = None if times else stretch_of(args)
-
-    def publish() -> None:
-        nonlocal count
-        if done.done():
-            return
-        count += 1
-        stamp(setters, node)
-        if args.print and count % args.print == 0:
-            print(f"publishing #{count}: {message!r}\n")
-        publisher.publish(message)
-        if count == times:
-            done.set_result(True)
-
-    print("publisher: beginning loop")
-    publish()
-    if times != 1:
-        timer = node.create_timer(1 / args.rate, publish)
-        if not spin_for(node, stretch, done) and stretch is not None:
-            raise end_of_stretch(stretch)
-        node.destroy_timer(timer)
-    time.sleep(args.keep_alive)
-
-
 EXAMPLES = ("/turtle1/pose", "geometry_msgs/msg/Twist")
 
 add_verbs("topic", "msg", EXAMPLES, topics, *NODE)
@@ -183,21 +175,15 @@ def list_topics(args: Namespace) -> None:
     """
     with direct_node(args) as node:
         found = topics(node, args.include_hidden_topics, ears=args.include_hidden_topics)
-        if args.count_topics:
-            print(len(found))
-        elif args.verbose:
-            for title, what, ends in (
-                ("Published", "publisher", publishers),
-                ("Subscribed", "subscriber", subscriptions),
-            ):
-                print(f"{title} topics:")
-                for name, types in found.items():
-                    if count := len(ends(node, name)):
-                        print(f" * {name} [{', '.join(types)}] {count} {what}{'s' if count > 1 else ''}")
-                print()
-        else:
-            for name, types in found.items():
-                print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+        if args.count_topics or not args.verbose:
+            print_names(with_types(found, shown=args.show_types), count=args.count_topics)
+            return
+        for title, what, ends in (("Published", "publisher", publishers), ("Subscribed", "subscriber", subscriptions)):
+            print(f"{title} topics:")
+            for name, line in zip(found, with_types(found), strict=True):
+                if count := len(ends(node, name)):
+                    print(f" * {line} {count} {what}{'s' if count > 1 else ''}")
+            print()
 
 
 @verb(

@@ -74,15 +74,12 @@ class Shell:
 
     def __init__(self, world: World) -> None:
         self.world = world
+        self._last = world.notebook.state(_Last)
 
     @property
     def exit_code(self) -> int:
         """The exit code of the last command of this world's terminal."""
-        return self.world.notebook.state(_Last).exit_code
-
-    @exit_code.setter
-    def exit_code(self, code: int) -> None:
-        self.world.notebook.state(_Last).exit_code = code
+        return self._last.exit_code
 
     def run(self, script: str) -> int:
         """Run a script of one line or several; a failing command prints and does not raise.
@@ -96,16 +93,16 @@ class Shell:
             plan = list(pipelines(tokens(script)))
         except (UnfinishedError, ShellSyntaxError) as mistake:
             print(f"syntax error: {cut(str(mistake), 300)}", file=error)
-            self.exit_code = SYNTAX
+            self._last.exit_code = SYNTAX
             return SYNTAX
         for condition, pipeline in plan:
             failed = self.exit_code != 0
             if (condition == "&&" and failed) or (condition == "||" and not failed):
                 continue
             try:
-                self.exit_code = self._pipeline(pipeline, out, error)
+                self._last.exit_code = self._pipeline(pipeline, out, error)
             except CommandInterrupted as stop:
-                self.exit_code = stop.code
+                self._last.exit_code = stop.code
                 raise
         return self.exit_code
 

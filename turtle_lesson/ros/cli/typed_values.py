@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from argparse import Namespace
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,7 @@ from ..idl.model import InvalidDefinition
 from ..idl.names import did_you_mean
 from ..idl.registry import FOLDERS, registry
 from .arguments import Argument, arg, depth, flag
-from .verb import CommandError, direct_node, expanded, suggest, verb
+from .verb import CommandError, direct_node, expanded, print_names, suggest, verb, with_types
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -166,20 +165,16 @@ def add_verbs(
         types = flag("-t --show-types", f"Show each {kind}'s type beside it")
 
         @verb(f"{kind} list", types, *list_arguments(kind), help_text=of_list)
-        def print_names(args: Namespace) -> None:
-            found = chosen(args)
-            if getattr(args, f"count_{kind}s"):
-                print(len(found))
-                return
-            for name, types in found.items():
-                print(f"{name} [{', '.join(types)}]" if args.show_types else name)
+        def print_known(args: Namespace) -> None:
+            lines = with_types(chosen(args), shown=args.show_types)
+            print_names(lines, count=getattr(args, f"count_{kind}s"))
 
     @verb(f"{kind} type", *common, name_argument(kind, examples[0]), help_text=f"{article} {kind}'s type")
     def print_type(args: Namespace) -> None:
         """For an unknown name the real tool says nothing, and ends with exit code 1."""
         with direct_node(args) as node:
             there = known(node, True)
-        print(*types_of(kind, getattr(args, f"{kind}_name"), there), sep="\n")
+        print_names(types_of(kind, getattr(args, f"{kind}_name"), there))
 
     wanted = arg(f"{kind}_type", f"Name of the type, such as {examples[1]}")
 
@@ -189,11 +184,11 @@ def add_verbs(
 
         type_name = getattr(args, f"{kind}_type")
         found = [name for name, types in chosen(args).items() if type_name in types]
-        if getattr(args, f"count_{kind}s"):
-            print(len(found))
-        elif found:
-            print(*found, sep="\n")
-        elif type_name.count("/") != 2 or _find(get_interface, type_name) is None:  # none, or typed in its short form
+        count = getattr(args, f"count_{kind}s")
+        print_names(found, count=count)
+        if found or count:
+            return
+        if type_name.count("/") != 2 or _find(get_interface, type_name) is None:  # none, or typed in its short form
             hint = suggest_type(type_name, folder)
             print(f"There is no type '{type_name}'\n{hint}".rstrip(), file=sys.stderr)
 
@@ -239,12 +234,8 @@ def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSReliabilityPolicy
 
     profile = _preset(args.qos_profile or preset)
-    if args.qos_depth is not None and args.qos_depth >= 0:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            profile.depth = args.qos_depth
-        for warning in caught:  # of a depth of 0: a line that names no file of ours
-            print(f"WARNING: {warning.message}", file=sys.stderr)
+    if (args.qos_depth or 0) > 0:
+        profile.depth = args.qos_depth
     for name, policy in (
         ("history", QoSHistoryPolicy),
         ("reliability", QoSReliabilityPolicy),

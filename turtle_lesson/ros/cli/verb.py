@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -140,6 +140,19 @@ def remark(sentence: str) -> None:
     """Print a sentence of the lesson's own, below the output; on stderr where the output goes to a file or a pipe."""
     shown = current_process().state(Invocation).shown
     print(sentence, file=sys.stdout if shown else sys.stderr)
+
+
+def print_names(names: Collection[str], *, count: bool = False) -> None:
+    """Print names, one a line; or only how many there are."""
+    if count:
+        print(len(names))
+    elif names:
+        print(*names, sep="\n")
+
+
+def with_types(known: dict[str, list[str]], *, shown: bool = True) -> list[str]:
+    """Names, each with its types if these are to be shown."""
+    return [f"{name} [{', '.join(types)}]" if shown else name for name, types in known.items()]
 
 
 def now() -> float:
