@@ -29,6 +29,7 @@ from .verb import (
     direct_node,
     end_of_stretch,
     expanded,
+    graph_verb,
     now,
     of_the_simulator,
     services,
@@ -91,20 +92,19 @@ def _outcome(node: Node, future: Future, doing: str, server: tuple[str, Callable
 add_verbs("service", "srv", SERVICES, services, of_list="The names of the services that are offered")
 
 
-@verb("service info", name_argument("service", SERVICES[0]))
-def service_info(args: Namespace) -> None:
+@graph_verb("service info", name_argument("service", SERVICES[0]))
+def service_info(args: Namespace, node: Node) -> None:
     """A service's type, and how many servers and clients it has.
 
     Humble lacks this verb, and newer releases have it.
     """
-    with direct_node(args) as node:
-        name = args.service_name
-        types = types_of("service", name, services(node, include_hidden=True))
-        ours = [where for where in node.get_node_names_and_namespaces() if of_the_simulator(where[0])]
-        clients = sum(name in dict(node.get_client_names_and_types_by_node(*where)) for where in ours)
-        print(f"Type: {types[0] if len(types) == 1 else types}")
-        print(f"Clients count: {node.count_clients(name) - clients}")
-        print(f"Services count: {node.count_services(name)}")
+    name = args.service_name
+    types = types_of("service", name, services(node, include_hidden=True))
+    ours = [where for where in node.get_node_names_and_namespaces() if of_the_simulator(where[0])]
+    clients = sum(name in dict(node.get_client_names_and_types_by_node(*where)) for where in ours)
+    print(f"Type: {types[0] if len(types) == 1 else types}")
+    print(f"Clients count: {node.count_clients(name) - clients}")
+    print(f"Services count: {node.count_services(name)}")
 
 
 @verb(
@@ -162,21 +162,20 @@ def actions(node: Node, include_hidden: bool = False) -> dict[str, list[str]]:
 add_verbs("action", "action", ACTIONS, actions, of_list="The names of the actions that nodes offer or use")
 
 
-@verb(
+@graph_verb(
     "action info",
     arg("action_name", f"Name of the action, such as {ACTIONS[0]}"),
     flag("-t --show-types", "Also show each node's type of the action"),
     flag("-c --count", "Print only how many clients and servers there are"),
 )
-def action_info(args: Namespace) -> None:
+def action_info(args: Namespace, node: Node) -> None:
     """Which nodes offer and use an action.
 
     Of an action that does not exist the real one says that no node offers or uses it.
     """
-    with direct_node(args) as node:
-        name = expanded(node, args.action_name)
-        known = actions(node)
-        clients, servers = _ends(node, name, "client"), _ends(node, name, "server")
+    name = expanded(node, args.action_name)
+    known = actions(node)
+    clients, servers = _ends(node, name, "client"), _ends(node, name, "server")
     print(f"Action: {args.action_name}")
     for title, ends in (("clients", clients), ("servers", servers)):
         print(f"Action {title}: {len(ends)}")

@@ -16,8 +16,8 @@ from .jobs import jobs
 from .verb import (
     CommandError,
     ask,
-    direct_node,
     find_node,
+    graph_verb,
     node_names,
     print_names,
     services,
@@ -34,49 +34,47 @@ if TYPE_CHECKING:
 TWINS = "WARNING: Be aware that are nodes in the graph that share an exact name, this can have unintended side effects."
 
 
-@verb("node list", *NODE, ALL_NODES, COUNT_NODES)
-def list_nodes(args: Namespace) -> None:
+@graph_verb("node list", *NODE, ALL_NODES, COUNT_NODES)
+def list_nodes(args: Namespace, node: Node) -> None:
     """The names of the nodes that are running."""
-    with direct_node(args) as node:
-        names = node_names(node, include_hidden=args.all)
+    names = node_names(node, include_hidden=args.all)
     if len(set(names)) < len(names) and not args.count_nodes:
         print(TWINS, file=sys.stderr)
     print_names(names, count=args.count_nodes)
 
 
-@verb(
+@graph_verb(
     "node info",
     *NODE,
     arg("node_name", "Full name of the node, such as /turtlesim"),
     flag("--include-hidden", "Also show topics and services with a hidden name"),
 )
-def info(args: Namespace) -> None:
+def info(args: Namespace, node: Node) -> None:
     """What a node publishes, subscribes to and offers."""
-    with direct_node(args) as node:
-        names = node_names(node, include_hidden=True)
-        name, count = args.node_name, names.count(args.node_name)
-        if not count:
-            raise CommandError(f"Unable to find node '{name}'", suggest(name, names))
-        if count > 1:
-            print(
-                f'There are {count} nodes in the graph with the exact name "{name}". '
-                "You are seeing information about only one of them.",
-                file=sys.stderr,
-            )
-        print(name)
-        namespace, _, base = name.rpartition("/")
-        for title, find in (
-            ("Subscribers", node.get_subscriber_names_and_types_by_node),
-            ("Publishers", node.get_publisher_names_and_types_by_node),
-            ("Service Servers", node.get_service_names_and_types_by_node),
-            ("Service Clients", node.get_client_names_and_types_by_node),
-            ("Action Servers", node.get_action_server_names_and_types_by_node),
-            ("Action Clients", node.get_action_client_names_and_types_by_node),
-        ):
-            found = find(base, namespace or "/")
-            shown = [(end, types) for end, types in found if args.include_hidden or not is_hidden(end)]
-            print(f"  {title}:")
-            print("\n".join(f"    {end}: {', '.join(types)}" for end, types in shown))
+    names = node_names(node, include_hidden=True)
+    name, count = args.node_name, names.count(args.node_name)
+    if not count:
+        raise CommandError(f"Unable to find node '{name}'", suggest(name, names))
+    if count > 1:
+        print(
+            f'There are {count} nodes in the graph with the exact name "{name}". '
+            "You are seeing information about only one of them.",
+            file=sys.stderr,
+        )
+    print(name)
+    namespace, _, base = name.rpartition("/")
+    for title, find in (
+        ("Subscribers", node.get_subscriber_names_and_types_by_node),
+        ("Publishers", node.get_publisher_names_and_types_by_node),
+        ("Service Servers", node.get_service_names_and_types_by_node),
+        ("Service Clients", node.get_client_names_and_types_by_node),
+        ("Action Servers", node.get_action_server_names_and_types_by_node),
+        ("Action Clients", node.get_action_client_names_and_types_by_node),
+    ):
+        found = find(base, namespace or "/")
+        shown = [(end, types) for end, types in found if args.include_hidden or not is_hidden(end)]
+        print(f"  {title}:")
+        print("\n".join(f"    {end}: {', '.join(types)}" for end, types in shown))
 
 
 # -- lifecycle ---------------------------------------------------------------------------------------------------------
@@ -102,92 +100,87 @@ def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) ->
     return ask(node, getattr(lifecycle_msgs.srv, kind), f"{node_name}/{service}", not_there, request)
 
 
-@verb("lifecycle nodes", *NODE, ALL_NODES, COUNT_NODES)
-def nodes(args: Namespace) -> None:
+@graph_verb("lifecycle nodes", *NODE, ALL_NODES, COUNT_NODES)
+def nodes(args: Namespace, node: Node) -> None:
     """The names of the managed nodes."""
-    with direct_node(args) as node:
-        found = _managed(node, args.all)
+    found = _managed(node, args.all)
     print_names(found, count=args.count_nodes)
 
 
-@verb(
+@graph_verb(
     "lifecycle get",
     *NODE,
     arg("node_name", "Name of the node; without one, all managed nodes are asked", nargs="?"),
     HIDDEN_NODES,
 )
-def get(args: Namespace) -> None:
+def get(args: Namespace, node: Node) -> None:
     """The state that a managed node is in."""
-    with direct_node(args) as node:
-        known = _managed(node, args.include_hidden_nodes)
-        if args.node_name:
-            state = _ask(node, find_node(node, args, known), "GetState", "get_state").current_state
-            print(f"{state.label} [{state.id}]")
-            return
-        for name in known:
-            try:
-                state = _ask(node, name, "GetState", "get_state").current_state
-            except CommandError as error:
-                print(f"Exception while calling service of node '{name}': {error}", file=sys.stderr)
-            else:
-                print(f"{name}: {state.label} [{state.id}]")
+    known = _managed(node, args.include_hidden_nodes)
+    if args.node_name:
+        state = _ask(node, find_node(node, args, known), "GetState", "get_state").current_state
+        print(f"{state.label} [{state.id}]")
+        return
+    for name in known:
+        try:
+            state = _ask(node, name, "GetState", "get_state").current_state
+        except CommandError as error:
+            print(f"Exception while calling service of node '{name}': {error}", file=sys.stderr)
+        else:
+            print(f"{name}: {state.label} [{state.id}]")
 
 
-@verb(
+@graph_verb(
     "lifecycle list",
     *NODE,
     _MANAGED,
     HIDDEN_NODES,
     flag("-a --all", "All transitions, not only those that are possible now"),
 )
-def list_transitions(args: Namespace) -> None:
+def list_transitions(args: Namespace, node: Node) -> None:
     """The transitions that are possible now."""
-    with direct_node(args) as node:
-        name = find_node(node, args, _managed(node, args.include_hidden_nodes))
-        for each in _transitions(node, name, "get_transition_graph" if args.all else "get_available_transitions"):
-            print(f"- {each.transition.label} [{each.transition.id}]")
-            print(f"\tStart: {each.start_state.label}")
-            print(f"\tGoal: {each.goal_state.label}")
+    name = find_node(node, args, _managed(node, args.include_hidden_nodes))
+    for each in _transitions(node, name, "get_transition_graph" if args.all else "get_available_transitions"):
+        print(f"- {each.transition.label} [{each.transition.id}]")
+        print(f"\tStart: {each.start_state.label}")
+        print(f"\tGoal: {each.goal_state.label}")
 
 
 def _transitions(node: Node, node_name: str, service: str) -> list[Any]:
     return _ask(node, node_name, "GetAvailableTransitions", service).available_transitions
 
 
-@verb(
+@graph_verb(
     "lifecycle set",
     *NODE,
     _MANAGED,
     HIDDEN_NODES,
     arg("transition", "Label or number of the transition, such as configure"),
 )
-def set_state(args: Namespace) -> None:
+def set_state(args: Namespace, node: Node) -> None:
     """Trigger a transition of a managed node."""
-    with direct_node(args) as node:
-        name = find_node(node, args)
-        possible = [each.transition for each in _transitions(node, name, "get_available_transitions")]
-        chosen = [each for each in possible if each.label == args.transition]
-        chosen += [each for each in possible if str(each.id) == args.transition]
-        if not chosen:
-            lines = "".join(f"\n- {each.label} [{each.id}]" for each in possible)
-            raise CommandError(f"Unknown transition requested, available ones are:{lines}")
-        if _ask(node, name, "ChangeState", "change_state", transition=chosen[0]).success:
-            print("Transitioning successful")
-        else:
-            print("Transitioning failed", file=sys.stderr)
+    name = find_node(node, args)
+    possible = [each.transition for each in _transitions(node, name, "get_available_transitions")]
+    chosen = [each for each in possible if each.label == args.transition]
+    chosen += [each for each in possible if str(each.id) == args.transition]
+    if not chosen:
+        lines = "".join(f"\n- {each.label} [{each.id}]" for each in possible)
+        raise CommandError(f"Unknown transition requested, available ones are:{lines}")
+    if _ask(node, name, "ChangeState", "change_state", transition=chosen[0]).success:
+        print("Transitioning successful")
+    else:
+        print("Transitioning failed", file=sys.stderr)
 
 
 # -- doctor ------------------------------------------------------------------------------------------------------------
 
 
-@verb("doctor", flag("-r --report", "also list nodes, topics, services and jobs"))
-def _doctor(args: Namespace) -> None:
+@graph_verb("doctor", flag("-r --report", "also list nodes, topics, services and jobs"))
+def _doctor(args: Namespace, node: Node) -> None:
     """Describe this simulation, what is running, and what looks wrong."""
-    with direct_node() as node:
-        _introduce(node)
-        if args.report:
-            _report(node)
-        complaints = _complaints(node)
+    _introduce(node)
+    if args.report:
+        _report(node)
+    complaints = _complaints(node)
     for text in complaints:
         print(f"WARNING: {text}", file=sys.stderr)
     print("\nAll 2 checks passed" + (f", with {_counted(complaints, 'warning')}" if complaints else ""))

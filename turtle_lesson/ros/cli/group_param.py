@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from .arguments import HIDDEN_NODES, NODE, arg, flag
 from .typed_values import Unparsable, read_yaml
-from .verb import CommandError, ask, direct_node, find_node, node_names, spin_for, suggest, verb
+from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -121,30 +121,28 @@ def tell(result: Any, done: str, failed: str) -> bool:
     return bool(result.successful)
 
 
-@verb("param dump", *OF_NODE)
-def dump(args: Namespace) -> None:
+@graph_verb("param dump", *OF_NODE)
+def dump(args: Namespace, node: Node) -> None:
     """All parameters of a node, in the format that `load` reads."""
     import yaml
     from rclpy.parameter import parameter_value_to_python
 
-    with direct_node(args) as node:
-        name = find_node(node, args)
-        names = listed(node, name)
-        values = _ask(node, name, "GetParameters", names=names).values
+    name = find_node(node, args)
+    names = listed(node, name)
+    values = _ask(node, name, "GetParameters", names=names).values
     pairs = zip(names, map(parameter_value_to_python, values), strict=False)
     tree = {name: {"ros__parameters": nested(list(pairs))}}
     print(yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True))
 
 
-@verb("param load", *OF_NODE, arg("parameter_file", "A file as `ros2 param dump` prints it"))
-def load(args: Namespace) -> None:
+@graph_verb("param load", *OF_NODE, arg("parameter_file", "A file as `ros2 param dump` prints it"))
+def load(args: Namespace, node: Node) -> None:
     """Set parameters from a file."""
-    with direct_node(args) as node:
-        name = find_node(node, args)
-        parameters = _read_file(args.parameter_file, name)
-        messages = [(each, from_python(value, str(value))) for each, value in parameters.items()]
-        for (each, _), result in zip(messages, set_values(node, name, messages), strict=True):
-            tell(result, f"Set parameter {each} successful", f"Set parameter {each} failed")
+    name = find_node(node, args)
+    parameters = _read_file(args.parameter_file, name)
+    messages = [(each, from_python(value, str(value))) for each, value in parameters.items()]
+    for (each, _), result in zip(messages, set_values(node, name, messages), strict=True):
+        tell(result, f"Set parameter {each} successful", f"Set parameter {each} failed")
 
 
 def _read_file(path: str, node_name: str) -> dict[str, Any]:
@@ -177,104 +175,100 @@ LIST_PATIENCE = 1.0
 """How long, in s, `param list` waits for each node, as the real one does."""
 
 
-@verb(
+@graph_verb(
     "param list",
     *NODE,
     arg("node_name", "Name of the node, such as /turtlesim", nargs="?"),
     HIDDEN_NODES,
     flag("--param-type", "Show each parameter's type beside it"),
 )
-def list_parameters(args: Namespace) -> None:
+def list_parameters(args: Namespace, node: Node) -> None:
     """The names of the parameters."""
     from rcl_interfaces.srv import ListParameters
 
-    with direct_node(args) as node:
-        every = dict.fromkeys(node_names(node, args.include_hidden_nodes))
-        futures = {}
-        for name in [find_node(node, args)] if args.node_name else every:
-            client = node.create_client(ListParameters, f"{name}/list_parameters")
-            if client.service_is_ready():
-                futures[name] = client.call_async(ListParameters.Request())
-        for name, future in futures.items():
-            if not spin_for(node, LIST_PATIENCE, future):
-                print(f"Exception while calling service of node '{name}': None", file=sys.stderr)
-                continue
-            names = sorted(future.result().result.names)
-            if names and not args.node_name:  # as in ros2param/verb/list.py
-                print(f"{name}:")
-            types: dict[str, str] = {}
-            if args.param_type and names:
-                descriptors = _ask(node, name, "DescribeParameters", names=names).descriptors
-                types = {each.name: f" (type: {TYPES[each.type][0]})" for each in descriptors}
-            for each in names:
-                print(f"  {each}{types.get(each, '')}")
+    every = dict.fromkeys(node_names(node, args.include_hidden_nodes))
+    futures = {}
+    for name in [find_node(node, args)] if args.node_name else every:
+        client = node.create_client(ListParameters, f"{name}/list_parameters")
+        if client.service_is_ready():
+            futures[name] = client.call_async(ListParameters.Request())
+    for name, future in futures.items():
+        if not spin_for(node, LIST_PATIENCE, future):
+            print(f"Exception while calling service of node '{name}': None", file=sys.stderr)
+            continue
+        names = sorted(future.result().result.names)
+        if names and not args.node_name:  # as in ros2param/verb/list.py
+            print(f"{name}:")
+        types: dict[str, str] = {}
+        if args.param_type and names:
+            descriptors = _ask(node, name, "DescribeParameters", names=names).descriptors
+            types = {each.name: f" (type: {TYPES[each.type][0]})" for each in descriptors}
+        for each in names:
+            print(f"  {each}{types.get(each, '')}")
 
 
-@verb("param get", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
-def get(args: Namespace) -> None:
+@graph_verb("param get", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
+def get(args: Namespace, node: Node) -> None:
     """A parameter's value."""
-    with direct_node(args) as node:
-        name = find_node(node, args)
-        values = _ask(node, name, "GetParameters", names=[args.parameter_name]).values
-        if not values:
-            raise CommandError("Parameter not set", suggest(args.parameter_name, listed(node, name)))
+    name = find_node(node, args)
+    values = _ask(node, name, "GetParameters", names=[args.parameter_name]).values
+    if not values:
+        raise CommandError("Parameter not set", suggest(args.parameter_name, listed(node, name)))
     _, field, label = TYPES[values[0].type]
     shown = [getattr(values[0], field)] if field else []
     print(*([] if args.hide_type else [label]), *shown)
 
 
-@verb("param set", *OF_NODE, PARAMETER, arg("value", "Its new value, in YAML: 1.5, true, fast, '[1, 2]'"))
-def set_parameter(args: Namespace) -> None:
+@graph_verb("param set", *OF_NODE, PARAMETER, arg("value", "Its new value, in YAML: 1.5, true, fast, '[1, 2]'"))
+def set_parameter(args: Namespace, node: Node) -> None:
     """Change a parameter."""
-    _change(args, lambda: from_text(args.value), "Set parameter successful", "Setting parameter failed")
+    _change(args, node, lambda: from_text(args.value), "Set parameter successful", "Setting parameter failed")
 
 
-@verb("param delete", *OF_NODE, PARAMETER)
-def delete(args: Namespace) -> None:
+@graph_verb("param delete", *OF_NODE, PARAMETER)
+def delete(args: Namespace, node: Node) -> None:
     """Delete a parameter."""
     from rcl_interfaces.msg import ParameterValue
 
-    _change(args, ParameterValue, "Deleted parameter successfully", "Deleting parameter failed")
+    _change(args, node, ParameterValue, "Deleted parameter successfully", "Deleting parameter failed")
 
 
-def _change(args: Namespace, value: Callable[[], Any], done: str, failed: str) -> None:
+def _change(args: Namespace, node: Node, value: Callable[[], Any], done: str, failed: str) -> None:
     """Set a parameter. As in the real tool, the exit code is 0 also if the node refuses the value."""
-    with direct_node(args) as node:
-        name = find_node(node, args)
-        [result] = set_values(node, name, [(args.parameter_name, value())])
-        if tell(result, done, failed):
-            return
-        known = listed(node, name)
-        if args.parameter_name not in known and (hint := suggest(args.parameter_name, known)):
-            print(hint, file=sys.stderr)
+    name = find_node(node, args)
+    [result] = set_values(node, name, [(args.parameter_name, value())])
+    if tell(result, done, failed):
+        return
+    known = listed(node, name)
+    if args.parameter_name not in known and (hint := suggest(args.parameter_name, known)):
+        print(hint, file=sys.stderr)
 
 
-@verb("param describe", *OF_NODE, arg("parameter_names", "Names of the parameters", nargs="+"))
-def describe(args: Namespace) -> None:
+@graph_verb("param describe", *OF_NODE, arg("parameter_names", "Names of the parameters", nargs="+"))
+def describe(args: Namespace, node: Node) -> None:
     """What a parameter is for, its type and limits.
 
     If one of the parameters is unknown the real one says nothing, of any of them.
     """
-    with direct_node(args) as node:
-        name = find_node(node, args)
-        descriptors = _ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors
-        for each in descriptors:
-            print(f"Parameter name: {each.name}")
-            print(f"  Type: {TYPES[each.type][0]}")
-            if each.description:
-                print(f"  Description: {each.description}")
-            print("  Constraints:")
-            if each.read_only:
-                print("    Read only: true")
-            for limits in [*each.floating_point_range, *each.integer_range][:1]:
-                print(f"    Min value: {limits.from_value}")
-                print(f"    Max value: {limits.to_value}")
-                if limits.step:
-                    print(f"    Step: {limits.step}")
-            if each.additional_constraints:
-                print(f"    Additional constraints: {each.additional_constraints}")
-        if not descriptors:
-            known = listed(node, name)
-            for each in args.parameter_names:
-                if each not in known:
-                    print(f"{name} has no parameter '{each}'\n{suggest(each, known)}".rstrip(), file=sys.stderr)
+    name = find_node(node, args)
+    descriptors = _ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors
+    for each in descriptors:
+        print(f"Parameter name: {each.name}")
+        print(f"  Type: {TYPES[each.type][0]}")
+        if each.description:
+            print(f"  Description: {each.description}")
+        print("  Constraints:")
+        if each.read_only:
+            print("    Read only: true")
+        for limits in [*each.floating_point_range, *each.integer_range][:1]:
+            print(f"    Min value: {limits.from_value}")
+            print(f"    Max value: {limits.to_value}")
+            if limits.step:
+                print(f"    Step: {limits.step}")
+        if each.additional_constraints:
+            print(f"    Additional constraints: {each.additional_constraints}")
+    if not descriptors:
+        known = listed(node, name)
+        for each in args.parameter_names:
+            if each not in known:
+                print(f"{name} has no parameter '{each}'\n{suggest(each, known)}".rstrip(), file=sys.stderr)

@@ -26,6 +26,7 @@ from .verb import (
     direct_node,
     end_of_stretch,
     expanded,
+    graph_verb,
     now,
     of_the_simulator,
     print_names,
@@ -161,45 +162,43 @@ EXAMPLES = ("/turtle1/pose", "geometry_msgs/msg/Twist")
 add_verbs("topic", "msg", EXAMPLES, topics, *NODE)
 
 
-@verb(
+@graph_verb(
     "topic list",
     *NODE,
     flag("-t --show-types", "Show each topic's type beside it"),
     *list_arguments("topic"),
     flag("-v --verbose", "Show types, and count publishers and subscriptions"),
 )
-def list_topics(args: Namespace) -> None:
+def list_topics(args: Namespace, node: Node) -> None:
     """The names of the topics that are in use.
 
     With hidden ones, those are included that only the simulation itself subscribes to.
     """
-    with direct_node(args) as node:
-        found = topics(node, args.include_hidden_topics, ears=args.include_hidden_topics)
-        if args.count_topics or not args.verbose:
-            print_names(with_types(found, shown=args.show_types), count=args.count_topics)
-            return
-        for title, what, ends in (("Published", "publisher", publishers), ("Subscribed", "subscriber", subscriptions)):
-            print(f"{title} topics:")
-            for name, line in zip(found, with_types(found), strict=True):
-                if count := len(ends(node, name)):
-                    print(f" * {line} {count} {what}{'s' if count > 1 else ''}")
-            print()
+    found = topics(node, args.include_hidden_topics, ears=args.include_hidden_topics)
+    if args.count_topics or not args.verbose:
+        print_names(with_types(found, shown=args.show_types), count=args.count_topics)
+        return
+    for title, what, ends in (("Published", "publisher", publishers), ("Subscribed", "subscriber", subscriptions)):
+        print(f"{title} topics:")
+        for name, line in zip(found, with_types(found), strict=True):
+            if count := len(ends(node, name)):
+                print(f" * {line} {count} {what}{'s' if count > 1 else ''}")
+        print()
 
 
-@verb(
+@graph_verb(
     "topic info",
     *NODE,
     name_argument("topic", EXAMPLES[0]),
     flag("--verbose -v", "Show every publisher and subscription, with QoS"),
 )
-def info(args: Namespace) -> None:
+def info(args: Namespace, node: Node) -> None:
     """A topic's type, its publishers and its subscriptions."""
-    with direct_node(args) as node:
-        name = args.topic_name
-        types = types_of("topic", name, topics(node, include_hidden=True))
-        end = "\n\n" if args.verbose else "\n"
-        print(f"Type: {types[0] if len(types) == 1 else types}", end=end)
-        for title, ends in (("Publisher", publishers(node, name)), ("Subscription", subscriptions(node, name))):
-            print(f"{title} count: {len(ends)}", end=end)
-            for each in ends if args.verbose else ():
-                print(each, end="\n\n")
+    name = args.topic_name
+    types = types_of("topic", name, topics(node, include_hidden=True))
+    end = "\n\n" if args.verbose else "\n"
+    print(f"Type: {types[0] if len(types) == 1 else types}", end=end)
+    for title, ends in (("Publisher", publishers(node, name)), ("Subscription", subscriptions(node, name))):
+        print(f"{title} count: {len(ends)}", end=end)
+        for each in ends if args.verbose else ():
+            print(each, end="\n\n")

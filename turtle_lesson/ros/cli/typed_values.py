@@ -11,7 +11,7 @@ from ..idl.model import InvalidDefinition
 from ..idl.names import did_you_mean
 from ..idl.registry import FOLDERS, registry
 from .arguments import Argument, arg, depth, flag
-from .verb import CommandError, direct_node, expanded, print_names, suggest, verb, with_types
+from .verb import CommandError, expanded, graph_verb, print_names, suggest, with_types
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -157,33 +157,30 @@ def add_verbs(
     """
     article = "An" if kind == "action" else "A"
 
-    def chosen(args: Namespace) -> dict[str, list[str]]:
-        with direct_node(args) as node:
-            return known(node, getattr(args, f"include_hidden_{kind}s", False))
+    def chosen(args: Namespace, node: Node) -> dict[str, list[str]]:
+        return known(node, getattr(args, f"include_hidden_{kind}s", False))
 
     if of_list:
         types = flag("-t --show-types", f"Show each {kind}'s type beside it")
 
-        @verb(f"{kind} list", types, *list_arguments(kind), help_text=of_list)
-        def print_known(args: Namespace) -> None:
-            lines = with_types(chosen(args), shown=args.show_types)
+        @graph_verb(f"{kind} list", types, *list_arguments(kind), help_text=of_list)
+        def print_known(args: Namespace, node: Node) -> None:
+            lines = with_types(chosen(args, node), shown=args.show_types)
             print_names(lines, count=getattr(args, f"count_{kind}s"))
 
-    @verb(f"{kind} type", *common, name_argument(kind, examples[0]), help_text=f"{article} {kind}'s type")
-    def print_type(args: Namespace) -> None:
+    @graph_verb(f"{kind} type", *common, name_argument(kind, examples[0]), help_text=f"{article} {kind}'s type")
+    def print_type(args: Namespace, node: Node) -> None:
         """For an unknown name the real tool says nothing, and ends with exit code 1."""
-        with direct_node(args) as node:
-            there = known(node, True)
-        print_names(types_of(kind, getattr(args, f"{kind}_name"), there))
+        print_names(types_of(kind, getattr(args, f"{kind}_name"), known(node, True)))
 
     wanted = arg(f"{kind}_type", f"Name of the type, such as {examples[1]}")
 
-    @verb(f"{kind} find", *common, wanted, *list_arguments(kind, "find"), help_text=f"The {kind}s of a type")
-    def print_found(args: Namespace) -> None:
+    @graph_verb(f"{kind} find", *common, wanted, *list_arguments(kind, "find"), help_text=f"The {kind}s of a type")
+    def print_found(args: Namespace, node: Node) -> None:
         from rosidl_runtime_py.utilities import get_interface
 
         type_name = getattr(args, f"{kind}_type")
-        found = [name for name, types in chosen(args).items() if type_name in types]
+        found = [name for name, types in chosen(args, node).items() if type_name in types]
         count = getattr(args, f"count_{kind}s")
         print_names(found, count=count)
         if found or count:

@@ -12,7 +12,7 @@ from argparse import Namespace
 from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean, is_hidden
@@ -113,6 +113,21 @@ def verb(words: str, *arguments: Argument, help_text: str = "", in_cell: bool = 
         about = help_text or (work.__doc__ or "").partition("\n")[0].rstrip(".")
         VERBS.setdefault(command, {})[name] = Verb(words, about, arguments, work, in_cell)
         return work
+
+    return add
+
+
+def graph_verb(words: str, *arguments: Argument, help_text: str = "") -> Callable[[Any], Any]:
+    """As `verb`, for work that looks at the graph: it is also given a node, which has looked around already."""
+
+    def add(work: Callable[[Namespace, Node], int | None]) -> Callable[[Namespace], int | None]:
+        @wraps(work)
+        def with_node(args: Namespace) -> int | None:
+            with direct_node(args) as node:
+                return work(args, node)
+
+        added: Callable[[Namespace], int | None] = verb(words, *arguments, help_text=help_text)(with_node)
+        return added
 
     return add
 
