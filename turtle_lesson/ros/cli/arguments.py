@@ -8,9 +8,12 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import partial
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..idl.names import did_you_mean
+
+if TYPE_CHECKING:
+    from ..sim.process import Output
 
 # The shape of usage and error texts follows recordings of ros2cli of Humble; help texts are our own words. Options
 # that only this simulation has (`--for`) stand in the help of a verb, but not in its usage line.
@@ -29,7 +32,7 @@ class Stop(Exception):
         self.text = text
         self.code = code
 
-    def print(self, stdout: Any, stderr: Any) -> int:
+    def print(self, stdout: Output, stderr: Output) -> int:
         """Print the text where it belongs; returns the exit code."""
         print(self.text, file=stderr if self.code else stdout)
         return self.code

@@ -11,10 +11,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from ..runtime.files import BorrowedStream, CellOutput, FileOutput
-from ..sim.process import Process
+from ..sim.process import Output, Process
 from .arguments import printable
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ LONGEST = 1500
 class _Stream(BorrowedStream):
     """A stream that prints into another one."""
 
-    def __init__(self, target: Any) -> None:
+    def __init__(self, target: Output) -> None:
         self._target = target
 
     def flush(self) -> None:
@@ -117,10 +117,10 @@ class CellErrors(_Stream):
     def write(self, text: str) -> int:
         """Print a text, as it is."""
         self._other.flush()
-        written: int = self._target.write(text)
+        self._target.write(text)
         if text.endswith("\n"):
             self._target.flush()
-        return written
+        return len(text)
 
 
 def cell_streams() -> tuple[TextIO, CellErrors]:
@@ -145,7 +145,7 @@ class Errors(_Stream):
         return len(text)
 
 
-def lasting(stream: Any, simulation: Simulation) -> BorrowedStream:
+def lasting(stream: Output, simulation: Simulation) -> BorrowedStream:
     """Where a program prints that goes on after its command: into the file behind `>`, or else into the running cell."""
     target = stream._target if isinstance(stream, Errors) else stream
     return target if isinstance(target, FileOutput) else CellOutput(simulation)
@@ -159,8 +159,8 @@ class Terminal:
     """What a command of the terminal works with."""
 
     world: World
-    stdout: Any
-    stderr: Any
+    stdout: Output
+    stderr: Output
     given: str | None = None
 
     def say(self, *lines: object) -> int:

@@ -47,7 +47,7 @@ def run(
     0 is returned at once. Raises KeyboardInterrupt if the user stops it.
     """
     out_to: Any = sys.stdout if stdout is None else stdout
-    error_to: Any = Errors(cell_streams()[1] if stderr is None else stderr)
+    error_to = Errors(cell_streams()[1] if stderr is None else stderr)
     folder = contextlib.chdir(cwd) if cwd is not None else contextlib.nullcontext()
     with folder:
         try:
@@ -126,7 +126,7 @@ def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
     return found
 
 
-def run_arguments(words: list[str]) -> Any:
+def run_arguments(words: list[str]) -> Namespace:
     """The arguments of `ros2 run …`. UnknownCommand if it would complain about them."""
     try:
         return parse(words).arguments

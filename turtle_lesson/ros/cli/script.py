@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..ament.index import current_packages
 from ..ament.install_tree import python_folders
@@ -18,6 +18,7 @@ from .jobs import lasting, with_values
 
 if TYPE_CHECKING:
     from ..runtime.world import World
+    from ..sim.process import Output
 
 
 # -- words and signs -------------------------------------------------------------------------------------------------
@@ -312,7 +313,9 @@ def _module(name: str) -> Path | None:
     return next((place for place in places if place.is_file()), None)
 
 
-def run_script(world: World, words: Sequence[str], path: Path, stdin: str | None, stdout: Any, stderr: Any) -> int:
+def run_script(
+    world: World, words: Sequence[str], path: Path, stdin: str | None, stdout: Output, stderr: Output
+) -> int:
     """Start the program at `path`, let it begin, and leave it running; the exit code of one that has ended at once.
 
     It reads `stdin` as its input, or the keyboard if there is none, and prints into the cell, or into files behind `>`.

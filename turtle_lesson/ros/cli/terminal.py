@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Iterable
 from errno import EINVAL, EISDIR
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..idl.names import did_you_mean
 from ..runtime import files
@@ -301,7 +301,7 @@ def kill(terminal: Terminal, words: list[str]) -> int:
     return code
 
 
-_WORDS: tuple[Any, ...] = (
+_WORDS = (
     cat, cd, chmod, cp, echo, export, grep, head, kill, ls, mkdir, mv, printenv, pwd, rm, sleep, sort, tail, touch,
     unset, wc,
 )  # fmt: skip

@@ -54,6 +54,11 @@ class Invocation:
     """Whether its output is shown in the cell: it goes to no file and to no pipe."""
 
 
+Work = Callable[[Namespace], int | None]
+GraphWork = Callable[[Namespace, "Node"], int | None]
+"""What does a verb's work; one that looks at the graph is given a node. It returns an exit code, or None for 0."""
+
+
 @dataclass(frozen=True)
 class Verb:
     """One verb of a command, such as `list` of `ros2 topic`; or a command without verbs, such as `ros2 run`.
@@ -68,7 +73,7 @@ class Verb:
     words: str
     help: str
     arguments: tuple[Argument, ...]
-    work: Callable[[Namespace], int | None]
+    work: Work
     in_cell: bool = False
 
     @property
@@ -102,13 +107,13 @@ VERBS: dict[str, dict[str, Verb]] = {}
 """The verbs of the modules that are imported, by command and name. A command without verbs has one without a name."""
 
 
-def verb(words: str, *arguments: Argument, help_text: str = "", in_cell: bool = False) -> Callable[[Any], Any]:
+def verb(words: str, *arguments: Argument, help_text: str = "", in_cell: bool = False) -> Callable[[Work], Work]:
     """Make a function that does a verb's work known by the words that call it; the function stays as it is.
 
     Its help is `help_text`, or else the first line of the function's docstring.
     """
 
-    def add(work: Callable[[Namespace], int | None]) -> Callable[[Namespace], int | None]:
+    def add(work: Work) -> Work:
         command, _, name = words.partition(" ")
         about = help_text or (work.__doc__ or "").partition("\n")[0].rstrip(".")
         VERBS.setdefault(command, {})[name] = Verb(words, about, arguments, work, in_cell)
@@ -117,17 +122,16 @@ def verb(words: str, *arguments: Argument, help_text: str = "", in_cell: bool = 
     return add
 
 
-def graph_verb(words: str, *arguments: Argument, help_text: str = "") -> Callable[[Any], Any]:
+def graph_verb(words: str, *arguments: Argument, help_text: str = "") -> Callable[[GraphWork], Work]:
     """As `verb`, for work that looks at the graph: it is also given a node, which has looked around already."""
 
-    def add(work: Callable[[Namespace, Node], int | None]) -> Callable[[Namespace], int | None]:
+    def add(work: GraphWork) -> Work:
         @wraps(work)
         def with_node(args: Namespace) -> int | None:
             with direct_node(args) as node:
                 return work(args, node)
 
-        added: Callable[[Namespace], int | None] = verb(words, *arguments, help_text=help_text)(with_node)
-        return added
+        return verb(words, *arguments, help_text=help_text)(with_node)
 
     return add
 
