@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
 import io
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from turtle_lesson.ros.ament.create import add_arguments
 from turtle_lesson.ros.ament.source import source
 from turtle_lesson.ros.cli.colcon import run
 from turtle_lesson.ros.runtime.world import World
@@ -76,6 +78,13 @@ def make_package(workspace: Path) -> Path:
     (folder / "robot_controller/navigator_node.py").write_text(NODE)
     (folder / "launch/start_system.launch.py").write_text("")
     return folder
+
+
+def parse(words: list[str]) -> argparse.Namespace:
+    """The arguments for `create_package`, from the words after `ros2 pkg create`."""
+    parser = argparse.ArgumentParser("ros2 pkg create", description="Create a new ROS 2 package")
+    add_arguments(parser)
+    return parser.parse_args(words)
 
 
 def change(path: Path, old: str, new: str) -> None:

@@ -16,10 +16,10 @@ from xml.etree import ElementTree
 
 import pytest
 from test_workspace_build import BROKEN
-from workspace_cases import XML, change, colcon, make_package
+from workspace_cases import XML, change, colcon, make_package, parse
 
 from turtle_lesson import start
-from turtle_lesson.ros.ament.create import create_package, parse
+from turtle_lesson.ros.ament.create import create_package
 from turtle_lesson.ros.ament.manifest import faults_in
 from turtle_lesson.ros.runtime.world import open_world
 

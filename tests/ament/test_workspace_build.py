@@ -11,7 +11,7 @@ import pytest
 from command_cases import cases
 from hypothesis import given
 from hypothesis import strategies as st
-from workspace_cases import change, colcon, make_package, source_in, timeless
+from workspace_cases import change, colcon, make_package, parse, source_in, timeless
 
 from turtle_lesson.ros.ament.package import CompiledProgramError
 from turtle_lesson.ros.cli.colcon import run
@@ -433,7 +433,7 @@ def test_an_interface_that_changed_takes_its_time(package: Path, world: World) -
 @pytest.fixture
 def python_package(tmp_path: Path, world: World, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A package that `ros2 pkg create` made."""
-    from turtle_lesson.ros.ament.create import create_package, parse
+    from turtle_lesson.ros.ament.create import create_package
 
     (tmp_path / "src").mkdir()
     monkeypatch.chdir(tmp_path)

@@ -10,9 +10,9 @@ from xml.etree import ElementTree
 
 import pytest
 from command_cases import cases
-from workspace_cases import colcon, source_in, started
+from workspace_cases import colcon, parse, source_in, started
 
-from turtle_lesson.ros.ament.create import LICENCES, create_package, parse
+from turtle_lesson.ros.ament.create import LICENCES, create_package
 from turtle_lesson.ros.ament.manifest import read_found
 from turtle_lesson.ros.ament.setup_py import install_scripts, read_setup
 from turtle_lesson.ros.runtime.world import World

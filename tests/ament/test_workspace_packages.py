@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 from command_cases import cases
-from workspace_cases import XML, change, colcon, make_package, source_in, started, timeless
+from workspace_cases import XML, change, colcon, make_package, parse, source_in, started, timeless
 
 import turtle_lesson
 from turtle_lesson.ros.ament import setup_py
-from turtle_lesson.ros.ament.create import create_package, parse
+from turtle_lesson.ros.ament.create import create_package
 from turtle_lesson.ros.cli.shell import run_line
 from turtle_lesson.ros.idl.registry import registry
 from turtle_lesson.ros.runtime.world import World

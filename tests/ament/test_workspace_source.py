@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from workspace_cases import change, colcon, make_package, source_in, started
+from workspace_cases import change, colcon, make_package, parse, source_in, started
 
 import turtle_lesson
 from turtle_lesson.ros.idl.registry import registry
@@ -165,7 +165,7 @@ def test_what_is_wrong_is_said_in_bashs_words(package: Path, world: World) -> No
 @pytest.fixture
 def python_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A package with one program, which counts in a variable of its module."""
-    from turtle_lesson.ros.ament.create import create_package, parse
+    from turtle_lesson.ros.ament.create import create_package
 
     (tmp_path / "src").mkdir()
     monkeypatch.chdir(tmp_path)

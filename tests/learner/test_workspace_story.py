@@ -9,6 +9,7 @@ from typing import Any
 
 import nbformat
 import pytest
+from workspace_cases import parse
 
 from turtle_lesson.learner import story
 from turtle_lesson.learner.workspace import Workspace, workspace
@@ -224,7 +225,7 @@ def test_reset_of_a_page_that_does_not_exist_changes_nothing(mine: Workspace) ->
 def test_what_pkg_create_made_is_replaced_without_a_question(mine: Workspace) -> None:
     def create_anew() -> None:
         words = [mine.package.name, "--build-type", "ament_cmake"]
-        create.create_package(create.parse(words), cwd=mine.package.parent, stdout=io.StringIO())
+        create.create_package(parse(words), cwd=mine.package.parent, stdout=io.StringIO())
 
     mine.package.parent.mkdir(parents=True)
     create_anew()

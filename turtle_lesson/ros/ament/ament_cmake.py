@@ -104,7 +104,6 @@ class _Build:
             stderr=with_hint("".join(self.warnings), self.hints),
             stdout=[*stdout, "-- Configuring done", "-- Generating done"],
             items=items,
-            dependencies=self.found.runtime_dependencies,
             left_out=[*self.cpp, *(entry.name for entry in self.entries if not runs_python(entry))],
             lacking=self.lacking,
         )

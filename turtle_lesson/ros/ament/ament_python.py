@@ -69,7 +69,7 @@ class _Build:
         check_targets(items, self.found.name)
         seconds = 1.7 if self.environment.symlink else 1.3
         text = with_hint("".join(self.warnings), self.hints)
-        return Outcome(0, text, [], seconds, items, self.found.runtime_dependencies)
+        return Outcome(0, text, [], seconds, items)
 
     # -- modules ---------------------------------------------------------------------------------------------------
 

@@ -33,7 +33,7 @@ _TEST_DEPENDS = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of `ros2 pkg create`."""
+    """The arguments of `ros2 pkg create`, which `create_package` takes."""
     parser.add_argument("package_name", help="name of the new package, in small letters with '_'")
     parser.add_argument("--package-format", "--package_format", default="3", choices=["2", "3"], help="of package.xml")
     parser.add_argument("--description", default=TO_DO_DESCRIPTION, help="one sentence that says what it is for")
@@ -50,13 +50,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--maintainer-name", default=USER, help="name of the maintainer")
     parser.add_argument("--node-name", help="also create a first program with this name")
     parser.add_argument("--library-name", help="not available here: C++ is not compiled")
-
-
-def parse(words: list[str]) -> argparse.Namespace:
-    """The arguments for `create_package`, from the words after `ros2 pkg create`."""
-    parser = argparse.ArgumentParser("ros2 pkg create", description="Create a new ROS 2 package")
-    add_arguments(parser)
-    return parser.parse_args(words)
 
 
 def create_package(

@@ -31,9 +31,6 @@ class PackageIndex:
     def __init__(self) -> None:
         self._layers: dict[str, list[Package]] = {}
 
-    def __repr__(self) -> str:
-        return f"<PackageIndex: {', '.join(self.names()) or 'empty'}>"
-
     def __contains__(self, name: object) -> bool:
         return name in self._layers
 
@@ -158,7 +155,12 @@ def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError
     if package.executables:
         names = ", ".join(sorted(package.executables))
         close = did_you_mean(executable, package.executables)
-        hint = f"{close} {package.name} has: {names}. {_entry_point(package, executable)}".strip()
+        hint = f"{close} {package.name} has: {names}.".strip()
+        module = executable.removesuffix(".py")
+        lying = package.source / package.name / f"{module}.py" if package.source else Path()
+        if _is_python(package) and module not in {*package.executables, "__init__"} and lying.is_file():
+            entry = f"{module} = {package.name}.{module}:main"
+            hint += f" For {module}.py add '{entry}' to console_scripts in setup.py, and build again."
         return ExecutableNotFoundError(text, hint)
     prefix = shown_path(str(package.prefix or package.share))
     text = f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
@@ -170,18 +172,6 @@ def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError
         hint = f"{package.name} has C++ programs alone, which are not built here: {', '.join(compiled)}."
         hint = f"{did_you_mean(executable, compiled)} {hint}".strip()
     return ExecutableNotFoundError(text, hint)
-
-
-def _entry_point(package: Package, executable: str) -> str:
-    """What to add to setup.py for a module that is there, and is no program yet."""
-    folder = package.source / package.name if package.source else None
-    module = executable.removesuffix(".py")
-    if folder is None or executable in ("__init__", "setup") or not _is_python(package):
-        return ""
-    if module in package.executables or not (folder / f"{module}.py").is_file():
-        return ""
-    entry = f"{module} = {package.name}.{module}:main"
-    return f"For {module}.py add '{entry}' to console_scripts in setup.py, and build again."
 
 
 def changed_since_built(package: Package) -> Path | None:
@@ -216,27 +206,21 @@ def find_launch_file(packages: PackageIndex, package: str, file_name: str) -> Pa
         shown = [shown_path(str(file)) for file in files]
         raise LaunchFileNotFoundError(f"file '{file_name}' was found more than once {directory}: {shown}")
     text = f"file '{file_name}' was not found {directory} which is at '{share}'"
-    raise LaunchFileNotFoundError(text, _launch_file_hint(found, file_name))
+    known = sorted({file.name for file in found.shared_files("*launch.*") if is_launch_file(file.name)})
+    there_are = f"There are: {', '.join(known)}." if known else "The package installs no launch file."
+    hint = did_you_mean(file_name, known) or there_are
+    if found.source and (lying := sorted(found.source.rglob(file_name))):
+        place = lying[0].parent.relative_to(found.source).as_posix()
+        what = f"write install(DIRECTORY {place} DESTINATION share/${{PROJECT_NAME}}) in CMakeLists.txt"
+        if _is_python(found):
+            what = f"add ('share/{package}/{place}', ['{place}/{file_name}']) to data_files in setup.py"
+        hint = f"The file is in {place}/, but it is not installed: {what} and build again."
+    raise LaunchFileNotFoundError(text, hint)
 
 
 def is_launch_file(name: str) -> bool:
     """Whether a file is named as launch files are, such as `start.launch.py` or `start_launch.xml`."""
     return name.endswith(tuple(f"{sign}launch.{kind}" for sign in "._" for kind in ("py", "xml", "yaml", "yml")))
-
-
-def _launch_file_hint(package: Package, file_name: str) -> str:
-    if package.source and (lying := sorted(package.source.rglob(file_name))):
-        place = lying[0].parent.relative_to(package.source).as_posix()
-        if _is_python(package):
-            entry = f"('share/{package.name}/{place}', ['{place}/{file_name}'])"
-            return f"The file is in {place}/, but it is not installed: add {entry} to data_files in setup.py and build again."
-        return (
-            f"The file is in {place}/, but it is not installed: write install(DIRECTORY {place} DESTINATION "
-            "share/${PROJECT_NAME}) in CMakeLists.txt and build again."
-        )
-    known = sorted({file.name for file in package.shared_files("*launch.*") if is_launch_file(file.name)})
-    there_are = f"There are: {', '.join(known)}." if known else "The package installs no launch file."
-    return did_you_mean(file_name, known) or there_are
 
 
 def current_packages() -> PackageIndex:

@@ -52,7 +52,6 @@ class Outcome:
     Attributes:
         stderr: what colcon shows between `--- stderr: name` and `---`.
         stdout: what CMake or setuptools say meanwhile.
-        dependencies: the packages that are needed when it runs.
         colcon_error: what colcon itself says where it does not even begin.
         left_out: the C++ programs and libraries that are not built here, and scripts that are not Python.
         lacking: the packages that these need and that are not here.
@@ -63,7 +62,6 @@ class Outcome:
     stdout: list[str] = field(default_factory=list)
     seconds: float = 1.0
     items: list[Item] = field(default_factory=list)
-    dependencies: list[str] = field(default_factory=list)
     colcon_error: str = ""
     left_out: list[str] = field(default_factory=list)
     lacking: list[str] = field(default_factory=list)
@@ -172,13 +170,13 @@ def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
     name = found.name
     if not found.is_python:
         yield Item(f"{_INDEX}/packages/{name}")
-        yield Item(f"{_INDEX}/package_run_dependencies/{name}", text=";".join(outcome.dependencies))
+        yield Item(f"{_INDEX}/package_run_dependencies/{name}", text=";".join(found.runtime_dependencies))
         yield Item(f"{_INDEX}/parent_prefix_path/{name}", text="/opt/ros/humble")
         config = f"# By this file find_package({name}) finds the package.\nset({name}_FOUND TRUE)\n"
         yield Item(f"share/{name}/cmake/{name}Config.cmake", text=config)
     if all(item.target != f"share/{name}/package.xml" for item in outcome.items):
         yield Item(f"share/{name}/package.xml", found.path / "package.xml")
-    yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(outcome.dependencies))))
+    yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(found.runtime_dependencies))))
 
 
 def _hooks(found: Found, outcome: Outcome) -> Iterator[Item]:

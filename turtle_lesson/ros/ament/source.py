@@ -11,7 +11,7 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
@@ -219,8 +219,10 @@ def checked_build(found: Found, environment: Environment) -> Outcome:
     return outcome
 
 
-def make_importable(world: World, package: Package) -> None:
-    """Have the modules of a package that is used as it lies there be found, as long as the world lasts."""
+def use_source(world: World, folder: Path) -> None:
+    """Make a package's executables, modules, launch files and interfaces findable, as building and sourcing it would."""
+    package = read_source_package(folder)
+    world.packages.add(package)
     added = [str(path) for path in package.modules if str(path) not in sys.path]
     sys.path += added
     forget_below(package.modules)
@@ -231,13 +233,6 @@ def make_importable(world: World, package: Package) -> None:
         forget_below(package.modules)
 
     world.notebook.at_exit.append(undo)
-
-
-def use_source(world: World, folder: Path) -> None:
-    """Make a package's executables, launch files and interfaces findable, as building and sourcing it would."""
-    package = read_source_package(folder)
-    world.packages.add(package)
-    make_importable(world, package)
     if package.interfaces:
         if package.name in registry.packages():
             registry.remove(package.name)
@@ -260,9 +255,9 @@ class Exported:
     folder: Path
     package: Path
     name: str
-    programs: list[str] = field(default_factory=list)
-    interfaces: list[str] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    programs: list[str]
+    interfaces: list[str]
+    notes: list[str]
 
     def __repr__(self) -> str:
         lines = [
@@ -283,7 +278,13 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
     """
     found = _find(world, package)
     target = Path(to).expanduser().resolve() / "src" / found.name
-    _check_target(found, target, overwrite)
+    if target == found.path or found.path in target.parents or target in found.path.parents:
+        raise PackageError(f"{shown_path(str(target))} is the package's own source; export it to another folder")
+    readme = target.parent.parent / "README.md"
+    own = readme.exists() and "package from Turtle Lesson" not in readme.read_text(encoding="utf-8", errors="replace")
+    if (target.exists() or own) and not overwrite:
+        hint = "Choose another folder, or write overwrite=True."
+        raise PackageError(f"{shown_path(str(readme if own else target))} already exists", hint=hint)
     with tempfile.TemporaryDirectory() as scratch:
         install, build = Path(scratch, "install"), Path(scratch, "build")
         environment = Environment(install, build, frozenset(registry.packages()), types_for(found, {}))
@@ -302,9 +303,17 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
     for item in outcome.items:
         if item.program and item.source is not None:
             (target / item.source.relative_to(found.path)).chmod(0o755)
-    result = _describe(found, target, outcome)
-    result.notes += [*_missing_dependencies(found, imports), *_newer_than(world.release, found), *_left_to_do(target)]
-    (target.parent.parent / "README.md").write_text(_readme(result, found), encoding="utf-8", newline="\n")
+    share = f"share/{found.name}/"
+    result = Exported(
+        folder=target.parent.parent,
+        package=target,
+        name=found.name,
+        programs=sorted(item.target.rpartition("/")[2] for item in outcome.items if item.program),
+        interfaces=sorted(item.target.removeprefix(share) for item in outcome.items if item.source and item.copied),
+        notes=[line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")],
+    )
+    result.notes += _notes(world.release, found, imports, target)
+    readme.write_text(_readme(result, found), encoding="utf-8", newline="\n")
     return result
 
 
@@ -324,16 +333,6 @@ def _find(world: World, package: str | Path) -> Found:
     return read_found(known[name], known[name].parent)
 
 
-def _check_target(found: Found, target: Path, overwrite: bool) -> None:
-    if target == found.path or found.path in target.parents or target in found.path.parents:
-        raise PackageError(f"{shown_path(str(target))} is the package's own source; export it to another folder")
-    readme = target.parent.parent / "README.md"
-    own = readme.exists() and "package from Turtle Lesson" not in readme.read_text(encoding="utf-8", errors="replace")
-    if (target.exists() or own) and not overwrite:
-        hint = "Choose another folder, or write overwrite=True."
-        raise PackageError(f"{shown_path(str(readme if own else target))} already exists", hint=hint)
-
-
 def _imports(folder: Path) -> Iterator[tuple[Path, int, str]]:
     """What the package's own programs import, with the file and the line."""
     for file in sorted(folder.rglob("*.py")):
@@ -350,16 +349,21 @@ def _imports(folder: Path) -> Iterator[tuple[Path, int, str]]:
                 yield file, node.lineno, node.module.partition(".")[0]
 
 
-def _describe(found: Found, target: Path, outcome: Outcome) -> Exported:
-    programs = [item.target.rpartition("/")[2] for item in outcome.items if item.program]
-    share = f"share/{found.name}/"
-    interfaces = [item.target.removeprefix(share) for item in outcome.items if item.source and item.copied]
-    hints = [line.removeprefix("Hint: ") for line in outcome.stderr.splitlines() if line.startswith("Hint: ")]
-    return Exported(target.parent.parent, target, found.name, sorted(programs), sorted(interfaces), hints)
-
-
-def _left_to_do(target: Path) -> Iterator[str]:
-    """What is to be looked at in the exported folder."""
+def _notes(release: Release, found: Found, imports: list[tuple[Path, int, str]], target: Path) -> Iterator[str]:
+    """What to look at in the exported package and its folder."""
+    # `rosdep` would not install what the code imports and package.xml does not name.
+    unnamed = {*registry.packages(), *CMAKE_PACKAGES, *PYTHON_PACKAGES} - {found.name, *found.dependencies}
+    for file, line, name in imports:
+        if name in unnamed:
+            unnamed.remove(name)
+            place = f"{file.relative_to(found.path).as_posix()}, line {line}"
+            yield f"{place}, imports {name}: add <exec_depend>{name}</exec_depend> to package.xml"
+    for (change, place), line in release.lacked.items():  # used in this world, although its release lacks it
+        for file in found.path.rglob(Path(place).name):
+            if file.parts[-2:] == Path(place).parts[-2:]:  # programs may run from a copy that a build has made
+                used = f"{file.relative_to(found.path).as_posix()}, line {line}, uses what {release.title} lacks"
+                yield f"{used}. Since {change.since.capitalize()} {change.what}; before, {change.before}"
+                break
     folder = target.parent.parent
     if (Path.cwd() / "src").is_dir() and Path.cwd() in target.parents:
         yield f"{shown_path(str(target))} lies in this workspace, where colcon build now finds {target.name} twice"
@@ -369,27 +373,6 @@ def _left_to_do(target: Path) -> Iterator[str]:
     for word in ("TODO: Package description", "TODO: License"):
         if word in text:
             yield f"package.xml still says '{word}'"
-
-
-def _missing_dependencies(found: Found, imports: list[tuple[Path, int, str]]) -> list[str]:
-    """Packages that the code imports and that package.xml does not name: `rosdep` would not install them."""
-    known = {*registry.packages(), *CMAKE_PACKAGES, *PYTHON_PACKAGES} - {found.name, *found.dependencies}
-    notes: dict[str, str] = {}
-    for file, line, name in imports:
-        if name in known:
-            place = f"{file.relative_to(found.path).as_posix()}, line {line}"
-            notes.setdefault(name, f"{place}, imports {name}: add <exec_depend>{name}</exec_depend> to package.xml")
-    return list(notes.values())
-
-
-def _newer_than(release: Release, found: Found) -> Iterator[str]:
-    """What the package's programs have used in this world, although the world's release lacks it."""
-    for (change, place), line in release.lacked.items():
-        for file in found.path.rglob(Path(place).name):
-            if file.parts[-2:] == Path(place).parts[-2:]:  # programs may run from a copy that a build has made
-                used = f"{file.relative_to(found.path).as_posix()}, line {line}, uses what {release.title} lacks"
-                yield f"{used}. Since {change.since.capitalize()} {change.what}; before, {change.before}"
-                break
 
 
 def _readme(result: Exported, found: Found) -> str:
