@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from geometry_msgs.msg import TransformStamped
 from rclpy.duration import Duration
 from rclpy.time import Time
@@ -24,16 +22,3 @@ from .buffer_interface import BufferInterface, TransformRegistration, TypeExcept
 from .static_transform_broadcaster import StaticTransformBroadcaster
 from .transform_broadcaster import TransformBroadcaster
 from .transform_listener import TransformListener
-
-_NOT_HERE = {
-    "ConvertRegistration": "data is transformed as messages only; register with TransformRegistration",
-    "convert": "data is transformed as messages only",
-    "BufferClient": "ask a Buffer with a TransformListener instead",
-    "StaticTransformListener": "a TransformListener also receives /tf_static",
-}
-
-
-def __getattr__(name: str) -> Any:
-    if name in _NOT_HERE:
-        raise NotImplementedError(f"tf2_ros.{name} is not available here: {_NOT_HERE[name]}")
-    raise AttributeError(f"module 'tf2_ros' has no attribute {name!r}")

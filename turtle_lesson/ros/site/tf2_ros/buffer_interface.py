@@ -9,7 +9,6 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import TransformStamped
-from rclpy._hints import refuse_unbuilt
 from rclpy.duration import Duration
 from rclpy.time import Time
 
@@ -49,15 +48,11 @@ class BufferInterface:
     def __init__(self) -> None:
         self.registration = TransformRegistration()
 
-    def transform(
-        self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE, new_type: Any = None
-    ) -> Any:
+    def transform(self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE) -> Any:
         """Stamped data as seen from the target frame, at the time of its stamp.
 
-        Raises TypeException for a type that is not registered, TransformException, and NotImplementedError for a `new_type`,
-        which asks for the data in another library's type.
+        Raises TypeException for a type that is not registered, and TransformException.
         """
-        refuse_unbuilt(new_type=new_type)
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         return do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout))
