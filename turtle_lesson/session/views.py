@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..learner.story import FINISHED
 from ..ros.runtime.files import home
-from ..ros.runtime.world import wall_time
 from ..ros.sim.errors import format_error
-from ..ros.sim.simulation import NANOSECONDS
+from ..ros.sim.simulation import EPOCH, NANOSECONDS
 
 if TYPE_CHECKING:
     from ..lab.checks.results import CheckResult
@@ -158,7 +157,7 @@ class Inspection(Views):
         from ..lab.recorder import ObstacleBoard
 
         # not by the node's clock: in a simulated world a look at that takes time
-        return ObstacleBoard(self._recording, lambda: wall_time(self._world))
+        return ObstacleBoard(self._recording, lambda: EPOCH + self._world.now)
 
     @property
     def _trace(self) -> Trace:

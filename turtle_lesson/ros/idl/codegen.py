@@ -7,7 +7,7 @@ globals of the generated module; no field can have such a name.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -37,7 +37,6 @@ class Kind:
         message_class: class of the value, where the field is one message.
         element_class: class of the value or of its elements, where these are messages.
         objects: globals that these expressions use.
-        weight: how many values and messages the default consists of.
         lines: how many fields stand where this one is written out, a message field by field.
     """
 
@@ -53,7 +52,6 @@ class Kind:
     message_class: type | None = None
     element_class: type | None = None
     objects: dict[str, Any] = field(default_factory=dict)
-    weight: int = 1
     lines: int = 1
 
     @property
@@ -74,11 +72,6 @@ class Kind:
 
 MOST_LINES = 64
 """A message with more fields than these, its messages' fields included, is not written out in those that contain it."""
-
-
-def weight_of(kinds: Iterable[Kind]) -> int:
-    """How many values and messages a message of such fields consists of, as long as its sequences are empty."""
-    return 1 + sum(kind.weight for kind in kinds)
 
 
 def kind_of(definition: Definition, member: Field, message_class: type | None) -> Kind:
@@ -154,7 +147,6 @@ def _message_kind(member: Field, key: str, message_class: type) -> Kind:
             fresh: message_class._FRESH,  # type: ignore[attr-defined]
             variable: message_class,
         },
-        weight=weight_of(inner),
         lines=lines if lines <= MOST_LINES else 1,
     )
 
@@ -190,7 +182,6 @@ def _numpy_kind(member: Field, key: str) -> Kind:
         objects={
             check: checks.assigned(checks.numpy_check(member.name, type_), partial(message.numpy_array, dtype=name))
         },
-        weight=type_.size or 0,
     )
 
 
@@ -200,11 +191,9 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
     check_function = checks.list_check(member.name, type_, element_class)
     # What was put into the list since the check is refused when it is copied.
     objects: dict[str, Any] = {check: checks.assigned(check_function), elements: check_function}
-    element_weight = 1
     copy = f"_list({elements}({{value}}))"
     if message_class:
         objects[class_variable(message_class)] = message_class
-        element_weight = weight_of(message_class._KINDS)  # type: ignore[attr-defined]
         copy = f"[each._wire_copy() for each in {elements}({{value}})]"
     elif element_class is str:
         copy = f"[_plain_text(each) for each in {elements}({{value}})]"
@@ -223,7 +212,6 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
         copy=copy,
         element_class=message_class,
         objects=objects,
-        weight=(type_.size or 0) * element_weight if type_.is_fixed else 1,
     )
 
 

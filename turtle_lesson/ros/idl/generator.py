@@ -28,7 +28,7 @@ from typing import Any
 from .. import hooks
 from . import message
 from .checks import FLOAT_BOUNDS
-from .codegen import Kind, kind_of, message_source, weight_of, wrapper_source
+from .codegen import Kind, kind_of, message_source, wrapper_source
 from .message import slot_type
 from .model import Constant, Definition, Field, FieldType, InvalidDefinition, Plain, carriers
 from .names import module_name
@@ -109,8 +109,6 @@ class _Builder:
                 kinds.append(self._kind(definition, member))
             for member in definition.constants:
                 check_value(member.type, member.value)
-            member = None
-            check_weight(name, weight_of(kinds))
         except InvalidDefinition as error:
             line, text = (None, None) if member is None else (member.line or None, str(member))
             raise error.locate(
@@ -177,9 +175,6 @@ _CPP = """
 CPP_WORDS = frozenset(_CPP.split())
 """The reserved words of C and of C++17."""
 
-MAX_WEIGHT = 10_000_000
-"""How many values and messages one message may consist of: more would fill the memory of a small computer."""
-
 
 def check_buildable(field: Field) -> None:
     """Raise InvalidDefinition for a field that no build gets through."""
@@ -199,16 +194,6 @@ def check_buildable(field: Field) -> None:
     else:
         return
     raise InvalidDefinition(reason, error, hint=hint)
-
-
-def check_weight(name: str, weight: int) -> None:
-    """Raise InvalidDefinition for a message of which each instance would consist of too many values."""
-    if weight > MAX_WEIGHT:
-        raise InvalidDefinition(
-            f"each message {name} would consist of {weight:,} values, which is more than fits into memory here",
-            "TypeError",
-            hint="A sequence such as float64[] is as long as what is in it",
-        )
 
 
 def check_value(base: str, value: Plain) -> None:

@@ -21,7 +21,7 @@ from ..rmw.trace import Trace
 from ..sim.errors import DriveTimeout, SimulationError, is_library
 from ..sim.process import Output, Process
 from ..sim.run_blocking import DRIVE_LIMIT, drive_within
-from ..sim.simulation import EPOCH, NANOSECONDS, Simulation
+from ..sim.simulation import NANOSECONDS, Simulation
 from ..sim.strand import running_strand
 from ..stdlib import ownership, patches
 from ..stdlib.clocks import real_monotonic, real_sleep
@@ -154,11 +154,6 @@ def open_world(seed: int = 0, distro: str | None = None) -> World:
         _current.close()
     _current = World(seed, distro)
     return _current
-
-
-def wall_time(world: World) -> int:
-    """What the virtual wall clock shows, in ns since 1970."""
-    return EPOCH + world.sim.now
 
 
 # -- letting it run while a command works: as fast as possible, or in live mode at the pace of the clock ---------------
