@@ -10,9 +10,7 @@ import subprocess
 import time
 from collections.abc import Callable
 
-from turtle_lesson.ros.stdlib.patches import original
-
-cpu_clock: Callable[[], float] = original(time, "process_time")
+cpu_clock: Callable[[], float] = time.process_time
 
 
 def interleaved(works: list[Callable[[], object]], rounds: int, clock: Callable[[], float]) -> list[list[float]]:

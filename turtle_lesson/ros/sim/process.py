@@ -222,39 +222,35 @@ class Process:
         self.simulation.raise_in(main, error)
 
     def _run_main(self, program: Callable[[], object]) -> None:
-        code: int | None = None
+        code = KILLED
         try:
-            code = self._code_of(program)
-            if code is not None and self.alive:
+            ended_with = self._code_of(program)
+            if self.alive:
                 hooks.wind_down(self)
-        except Killed:  # while it was waiting for its threads
-            code = None
+            code = ended_with
+        except Killed:  # in the program, or while it was waiting for its threads
+            pass
         finally:
-            self._finish(KILLED if code is None else code)
+            self._finish(code)
 
-    def _code_of(self, program: Callable[[], object]) -> int | None:
-        """Run the main program; the exit code that it ends with, None if it is killed."""
+    def _code_of(self, program: Callable[[], object]) -> int:
+        """Run the main program; the exit code that it ends with."""
         try:
             program()
             return 0
         except Killed:
-            return None
+            raise
         except SystemExit as error:
-            return self._exit_status(error)
+            if error.code is None or isinstance(error.code, int):
+                return error.code or 0
+            print(error.code, file=sys.stderr)
+            return 1
         except KeyboardInterrupt as error:
             self._show(error)
             return INTERRUPTED
         except BaseException as error:
             self._show(error)
             return 1
-
-    def _exit_status(self, error: SystemExit) -> int:
-        if error.code is None:
-            return 0
-        if isinstance(error.code, int):
-            return error.code
-        print(error.code, file=sys.stderr)
-        return 1
 
     def _show(self, error: BaseException) -> None:
         if self.alive:
@@ -274,13 +270,9 @@ class Process:
             except Exception as error:  # the rest is to be cleaned up all the same
                 print_error(error, self.stderr or sys.stderr)
         self.at_exit.clear()
-        self._drop_other_strands()
-        if self._on_exit is not None:
-            self._on_exit(self)
-
-    def _drop_other_strands(self) -> None:
-        """Workers end with their process: they are never resumed again, wherever they stand."""
         current = running_strand()
-        for strand in self.strands:
+        for strand in self.strands:  # workers end with their process: they are never resumed again, wherever they stand
             if strand is not current:
                 self.simulation.forget(strand)
+        if self._on_exit is not None:
+            self._on_exit(self)

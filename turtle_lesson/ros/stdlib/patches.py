@@ -21,7 +21,7 @@ from enum import IntEnum
 from functools import cache, partial
 from importlib.machinery import ModuleSpec, PathFinder
 from pkgutil import resolve_name
-from types import MethodType, ModuleType
+from types import FunctionType, MethodType, ModuleType
 from typing import Any, NamedTuple
 
 from ..idl.registry import install_finder, uninstall_finder
@@ -62,10 +62,11 @@ class Patch(NamedTuple):
 
 
 def named(function: Any, name: str, real: Any) -> Any:
-    """Give a function the name and docstring of the one that it stands for."""
-    function.__name__, function.__qualname__ = name, getattr(real, "__qualname__", name)
-    function.__module__, function.__doc__ = getattr(real, "__module__", None), real.__doc__
-    return function
+    """A copy of a function, with the name and docstring of the one that it stands for."""
+    copy: Any = FunctionType(function.__code__, function.__globals__, name, function.__defaults__, function.__closure__)
+    copy.__kwdefaults__, copy.__qualname__ = function.__kwdefaults__, getattr(real, "__qualname__", name)
+    copy.__module__, copy.__doc__ = getattr(real, "__module__", None), real.__doc__
+    return copy
 
 
 def _function(owner: str, function: Callable[..., Any], why: str, name: str = "", stage: Stage = Stage.WORLD) -> Patch:
@@ -205,7 +206,10 @@ TABLE: tuple[Patch, ...] = (
             "pthread_kill",
         )
     ),
-    *(_function(owner, process_state.showing(), MODULES, name) for owner, name in process_state.LOOKS_INTO_SYS_MODULES),
+    *(
+        _function(owner, process_state.with_modules, MODULES, name)
+        for owner, name in process_state.LOOKS_INTO_SYS_MODULES
+    ),
     _method("ipykernel.iostream:OutStream", "flush", in_no_strand, "waits for a real thread, in which no time passes"),
     Patch("os:environ", "__class__", lambda real: process_state.ProcessEnviron, VARIABLES),
     _function("atexit", process_state.register, AT_EXIT),
@@ -365,12 +369,6 @@ def _put_in(patch: Patch) -> None:
     ours = patch.ours(real)
     _replaced.append((owner, name, own))
     setattr(owner, name, ours)
-
-
-def original(owner: Any, name: str) -> Any:
-    """The real attribute of a module or class, whether it was replaced or not."""
-    found = (real for each, called, real in _replaced if each is owner and called == name)
-    return next(found, None) or getattr(owner, name)
 
 
 def _at_exit() -> None:

@@ -65,16 +65,12 @@ LOOKS_INTO_SYS_MODULES = (
 """Functions of the standard library that look into `sys.modules` for a module of the program that runs."""
 
 
-def showing() -> Callable[..., Any]:
-    """A function that has the program's modules be there, and then does what the real one does."""
-
-    def show_and_call(real: Any, *arguments: Any, **keywords: Any) -> Any:
-        modules = running_modules()
-        if modules is not None:
-            modules.show()
-        return real(*arguments, **keywords)
-
-    return show_and_call
+def with_modules(real: Callable[..., Any], *arguments: Any, **keywords: Any) -> Any:
+    """Have the program's modules be there, and then do what the real function does."""
+    modules = running_modules()
+    if modules is not None:
+        modules.show()
+    return real(*arguments, **keywords)
 
 
 # -- random numbers ----------------------------------------------------------------------------------------------------

@@ -60,6 +60,7 @@ class ProgramInput(TextIOBase):
     def __init__(self, process: Process) -> None:
         self.process = process
         self.keys = KeyReader(process, has_terminal=True)
+        # as Linux begins: ICRNL and IXON; OPOST and ONLCR; CS8 and CREAD; ISIG, ICANON, ECHO, ECHOE, ECHOK and IEXTEN
         characters = [b"\x03", b"\x1c", b"\x7f", b"\x00", b"\x04", b"\x00", b"\x01", *[b"\x00"] * 25]
         self.settings: Settings = [0x500, 0x5, 0xB0, 0x803B, 15, 15, characters]
         self.raw = False
@@ -163,7 +164,7 @@ class ProgramInput(TextIOBase):
         self.raw = not flags & FLAGS["ICANON"]
         self.signals = bool(flags & FLAGS["ISIG"])
         self.returns = not settings[IFLAG] & FLAGS["ICRNL"]
-        least, tenths = (ord(each) if isinstance(each, bytes) else each for each in (characters[6], characters[5]))
+        tenths, least = (ord(each) if isinstance(each, bytes) else each for each in characters[FLAGS["VTIME"] :][:2])
         self.patience = tenths / 10 if self.raw and not least else None
         if self.raw:
             self.process.simulation.keyboard.reads_keys(self.keys)
