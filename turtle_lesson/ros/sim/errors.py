@@ -128,37 +128,23 @@ def format_error(error: BaseException) -> str:
     """The text of an error as Python prints it, cut to the learner's own frames."""
     if before_showing is not None:
         before_showing(error)
-    lines = ["Traceback (most recent call last):\n"]
-    for entry in _frames_to_show(error):
-        code = entry.tb_frame.f_code
-        summary = traceback.extract_tb(entry, limit=1)[0]
-        lines.append(f'  File "{shown_path(code.co_filename)}", line {entry.tb_lineno}, in {code.co_name}\n')
-        if summary.line:
-            lines.append(f"    {summary.line.strip()}\n")
-    lines.extend(_last_lines(error))
-    return _cause(error) + "".join(lines)
-
-
-def _last_lines(error: BaseException) -> list[str]:
-    """What an error says. What newer Pythons guess at its end is left out, unless the error itself says so."""
-    lines = traceback.format_exception_only(type(error), error)
-    if isinstance(error, (AttributeError, NameError, ImportError)) and not _GUESS.search(str(error)):
-        lines[0] = _GUESS.sub("", lines[0].rstrip("\n")) + "\n"
-    return lines
-
-
-def _frames_to_show(error: BaseException) -> list[TracebackType]:
+    text = ""
+    if error.__cause__ is not None:
+        cause = format_error(error.__cause__)
+        text = f"{cause}\nThe above exception was the direct cause of the following exception:\n\n"
+    text += "Traceback (most recent call last):\n"
     frames = learners_frames(error.__traceback__)
     if not frames and not isinstance(error, SyntaxError):  # which names its own file and line
         frames = traceback_entries(error.__traceback__)
-    return frames
-
-
-def _cause(error: BaseException) -> str:
-    if error.__cause__ is not None:
-        cause = format_error(error.__cause__)
-        return f"{cause}\nThe above exception was the direct cause of the following exception:\n\n"
-    return ""
+    for entry in frames:
+        code = entry.tb_frame.f_code
+        text += f'  File "{shown_path(code.co_filename)}", line {entry.tb_lineno}, in {code.co_name}\n'
+        if line := traceback.extract_tb(entry, limit=1)[0].line:
+            text += f"    {line.strip()}\n"
+    said = traceback.format_exception_only(type(error), error)
+    if isinstance(error, (AttributeError, NameError, ImportError)) and not _GUESS.search(str(error)):
+        said[0] = _GUESS.sub("", said[0].rstrip("\n")) + "\n"  # what newer Pythons guess, and the error itself does not
+    return text + "".join(said)
 
 
 def print_error(error: BaseException, stream: TextIO | None = None) -> None:

@@ -48,7 +48,7 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
         return super().create_task(coro, **keywords)
 
     def call_exception_handler(self, context: Any) -> None:
-        """As in asyncio; but of tasks that were left when their process or world ended nobody need hear."""
+        """As in asyncio, but silent about tasks that were left when their process or world ended."""
         if self._process.alive and not self._process.simulation.closed:
             super().call_exception_handler(context)
 

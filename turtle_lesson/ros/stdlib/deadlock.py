@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
@@ -38,7 +38,7 @@ def wait_in_vain(strand: Strand, what: VirtualLock | str) -> None:
     if strand is strand.simulation.driven and not isinstance(what, str) and what.surely and what.owner is None:
         # a cell waits for a lock that it has taken itself, by `with`, before it let the simulation run
         raise NeverWakes(why_in_a_circle(strand, [strand], strand))
-    chain = list(_waited_for(strand))
+    chain = _chain(strand)
     last = chain[-1]
     owner = _sure_owner(last)
     if owner is not None and (owner.dead or owner in chain):
@@ -48,23 +48,23 @@ def wait_in_vain(strand: Strand, what: VirtualLock | str) -> None:
 
 
 def look_after(ended: Strand) -> None:
-    """Called when a strand has ended, or does nothing by itself any more: is there hope for those who wait?"""
+    """Called when a strand has ended, or does nothing by itself any more: looks for others that now wait in vain."""
     process = ended.process
     others = [each for each in process.strands if not each.dead and each is not ended]
     waiting = [each for each in others if each.waits_for not in (None, IDLE)]
     if waiting and process.alive and _nobody_can_act(process, ended):
-        _tell(list(_waited_for(waiting[0]))[-1], None)
+        _tell(_chain(waiting[0])[-1], None)
 
 
-def _waited_for(strand: Strand) -> Iterator[Strand]:
+def _chain(strand: Strand) -> list[Strand]:
     """The strand itself, the one that it surely waits for, the one that that one waits for, and so on."""
-    seen: list[Strand] = []
+    chain: list[Strand] = []
     following: Strand | None = strand
-    while following is not None and following not in seen and not following.dead:
-        seen.append(following)
-        yield following
+    while following is not None and following not in chain and not following.dead:
+        chain.append(following)
         owner = _sure_owner(following)
         following = owner if owner is not None and (owner is strand or _waits_in_vain(owner)) else None
+    return chain
 
 
 def _sure_owner(strand: Strand) -> Strand | None:
@@ -82,7 +82,7 @@ def _waits_in_vain(strand: Strand) -> bool:
 def _nobody_can_act(process: Process, this: Strand | None) -> bool:
     """Whether all strands of a process, also this one, wait for one another.
 
-    Those who send signals, and the notebook's cells, are somebody, too.
+    A signal that the program handles can end a wait, too, and so can the notebook's next cell.
     """
     names = [getattr(getattr(each, "func", each), "__qualname__", "") for each in process.signal_handlers.values()]
     if any(name != "Runner._on_sigint" for name in names):  # set by the program, and not by `asyncio.run`
@@ -91,12 +91,12 @@ def _nobody_can_act(process: Process, this: Strand | None) -> bool:
         return False
     for each in process.strands:
         if not each.dead and getattr(each.waits_for, "owner", each) is None and not process.is_notebook:
-            return False  # somebody who is no strand holds the lock that it waits for
+            return False  # the lock that it waits for is held outside of all strands
     return all(strand is this or _waits_in_vain(strand) for strand in process.strands)
 
 
 def _tell(victim: Strand, asking: Strand | None) -> None:
-    """Raise NeverWakes where the one waits who is to blame."""
+    """Raise NeverWakes in the strand that is to blame."""
     driven = victim.simulation.driven
     if driven is not None and driven.process is victim.process:
         victim = driven
@@ -118,7 +118,7 @@ _ROOMS = {"threading", "queue", "concurrent.futures.thread", "concurrent.futures
 
 LOOP = "its asyncio loop"
 IDLE = "something to do"
-"""For what a worker waits that does nothing by itself: nobody need wake it, and it wakes nobody."""
+"""What an idle worker waits for: it is no deadlock if nothing wakes it, and it wakes no other thread."""
 
 _WHAT_ENDS_IT = {
     "Barrier.wait": "come to the barrier",

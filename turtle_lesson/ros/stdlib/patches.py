@@ -189,7 +189,9 @@ TABLE: tuple[Patch, ...] = (
     *(Patch("asyncio", e.__name__, _now("asyncio.events", e.__name__), LOOPS) for e in asyncio_loops.REPLACEMENTS),
     *(_in_process("signal", each, SIGNAL, cells=False) for each in process_state.REPLACEMENTS),
     _function("os", process_state.kill, SIGNAL),
-    _in_process("os", process_state.exit_now, "ends the simulated process alone", "_exit", cells=False),
+    _in_process(
+        "os", lambda strand, code: strand.process.end_now(code), "ends that process alone", "_exit", cells=False
+    ),
     _function("os", terminals.read, "reads the program's own terminal"),
     *(_function("os", process_state.tell_system, VARIABLES, name) for name in ("putenv", "unsetenv")),
     *(_refused("os", name, subprocesses.no_process) for name in ("fork", "forkpty")),
@@ -384,8 +386,9 @@ def _put_in_place_of_modules() -> None:
     """What import statements of simulated programs, and of nobody else, get or cause."""
     for module in (clocks.make_module(), *terminals.make_modules()):
         on_import[module.__name__] = partial(_itself, module)
-    on_import.update({toolkit: partial(subprocesses.no_window, toolkit) for toolkit in subprocesses.WINDOWS})
-    on_import.update(pynput=_pynput, curses=terminals.no_curses)
+    refused = {**dict.fromkeys(subprocesses.WINDOWS, subprocesses.NO_WINDOW), "curses": subprocesses.NO_CURSES}
+    on_import.update({name: partial(subprocesses.refuse_import, name, why) for name, why in refused.items()})
+    on_import["pynput"] = _pynput
 
 
 def _itself(module: ModuleType) -> ModuleType:

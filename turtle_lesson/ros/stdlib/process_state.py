@@ -165,7 +165,7 @@ def raise_signal(strand: Strand, signalnum: int, /) -> None:
 
 
 def kill(real: Any, pid: int, signal: int, /) -> None:
-    """Send a process a signal: that which runs a program's file itself, or (0 is no signal) one of the computer."""
+    """`os.kill`: a signal that a program sends to itself stays in the world; all others, and 0, go to the computer."""
     process = _own_process()
     if signal and process is not None and process.modules is not None and pid in (os.getpid(), process.pid):
         process.send_signal(signal)
@@ -207,11 +207,6 @@ def unregister(real: Any, func: Any, /) -> None:
     else:
         kept = [each for each in process.exit_functions if not isinstance(each, partial) or each.func != func]
         process.exit_functions[:] = kept
-
-
-def exit_now(strand: Strand, status: int) -> None:
-    """`os._exit`: the process ends here and now, and nothing is cleaned up."""
-    strand.process.end_now(status)
 
 
 def _own_process() -> Process | None:

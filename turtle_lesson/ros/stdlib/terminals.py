@@ -294,14 +294,6 @@ def make_fcntl() -> ModuleType:
     return _module("fcntl", vars(real), fcntl)
 
 
-def no_curses() -> None:
-    """Refuse the import of `curses` by a program."""
-    raise ImportError(
-        "curses is not available here: a program reads keys with termios, tty and select, or with pynput.keyboard",
-        name="curses",
-    )
-
-
 def _module(name: str, names: dict[str, Any], *functions: Callable[..., Any]) -> ModuleType:
     module = ModuleType(name)
     module.__dict__.update({key: value for key, value in names.items() if not key.startswith("__")})

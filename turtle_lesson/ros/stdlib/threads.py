@@ -154,9 +154,9 @@ def thread_of(strand: Strand) -> threading.Thread:
 
 def become(thread: threading.Thread, strand: Strand) -> None:
     """Let a thread object stand for a strand, as if it had been started."""
-    process, state, lock = strand.process, vars(thread), VirtualLock()
+    process, state, lock = strand.process, vars(thread), VirtualLock(owned=True)
     lock.acquire(False)
-    lock.owner, lock.surely = strand, True
+    lock.owner = strand
     strand.thread, state["_strand"], state["_virtual"] = thread, strand, lock
     state["_ident"] = state["_native_id"] = (process.pid << 16) + process.next_number("threads")
     state["_started"].set()
@@ -303,7 +303,7 @@ def wind_down(process: Process) -> None:
             end(thread_of(process.main_strand))
             while waited_for := [thread for thread in _threads(process, made=True) if not thread.daemon]:
                 waited_for[0].join()
-    except KeyboardInterrupt as error:  # somebody has no patience: then nobody is waited for
+    except KeyboardInterrupt as error:  # Ctrl-C ends the waiting
         print(f"Exception ignored in: <module 'threading'>\n{format_error(error)}", end="", file=sys.stderr)
     while process.exit_functions:
         _call(process.exit_functions.pop())
