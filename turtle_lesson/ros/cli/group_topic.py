@@ -130,12 +130,12 @@ def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> No
 
 def _matched(node: Node, publisher: Publisher) -> int:
     """How many subscriptions get what is published, without the simulation's own, which always do."""
-    ears = [
+    own = [
         each
         for each in node.get_subscriptions_info_by_topic(publisher.topic_name)
         if of_the_simulator(each.node_name) and each.topic_type == publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
     ]
-    return max(0, publisher.get_subscription_count() - len(ears))
+    return max(0, publisher.get_subscription_count() - len(own))
 
 
 def _why_too_few(node: Node, publisher: Publisher, needed: int) -> tuple[str, str]:
@@ -174,7 +174,7 @@ def list_topics(args: Namespace, node: Node) -> None:
 
     With hidden ones, those are included that only the simulation itself subscribes to.
     """
-    found = topics(node, args.include_hidden_topics, ears=args.include_hidden_topics)
+    found = topics(node, args.include_hidden_topics, unused=args.include_hidden_topics)
     if args.count_topics or not args.verbose:
         print_names(with_types(found, shown=args.show_types), count=args.count_topics)
         return

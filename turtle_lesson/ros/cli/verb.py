@@ -123,7 +123,7 @@ def verb(words: str, *arguments: Argument, help_text: str = "", in_cell: bool = 
 
 
 def graph_verb(words: str, *arguments: Argument, help_text: str = "") -> Callable[[GraphWork], Work]:
-    """As `verb`, for work that looks at the graph: it is also given a node, which has looked around already."""
+    """As `verb`, for work that looks at the graph: it is also given a node, which has discovered the graph already."""
 
     def add(work: GraphWork) -> Work:
         @wraps(work)
@@ -214,7 +214,7 @@ def ask(node: Node, kind: Any, service: str, not_there: str, request: dict[str, 
 
 @contextmanager
 def direct_node(args: Namespace | None = None, name: str | None = None) -> Iterator[Node]:
-    """A node for the length of a command, hidden unless it is given a name; it has looked around already."""
+    """A node for the length of a command, hidden unless it is given a name; it has discovered the graph already."""
     import time
 
     import rclpy
@@ -250,24 +250,24 @@ def find_node(node: Node, args: Namespace, known: list[str] | None = None) -> st
     raise CommandError("Node not found", suggest(name, names if known is None else known))
 
 
-def topics(node: Node, include_hidden: bool = False, *, ears: bool = False) -> dict[str, list[str]]:
-    """The topics, sorted, with their types; with `ears` also those that only the simulation itself subscribes to."""
+def topics(node: Node, include_hidden: bool = False, *, unused: bool = False) -> dict[str, list[str]]:
+    """The topics, sorted, with their types; those to which only the simulation itself subscribes count as `unused`."""
     return {
         name: types
         for name, types in node.get_topic_names_and_types()
-        if (include_hidden or not is_hidden(name)) and (ears or publishers(node, name) or subscriptions(node, name))
+        if (include_hidden or not is_hidden(name)) and (unused or publishers(node, name) or subscriptions(node, name))
     }
 
 
 def publishers(node: Node, topic: str) -> list[TopicEndpointInfo]:
-    """The publishers of a topic, without those that every node has, of the simulation's own nodes."""
+    """The publishers of a topic; of the simulation's own nodes, those that every node has are left out."""
     found = node.get_publishers_info_by_topic(topic)
     every_node_has = topic in ("/rosout", "/parameter_events")
     return [each for each in found if not (every_node_has and of_the_simulator(each.node_name))]
 
 
 def subscriptions(node: Node, topic: str) -> list[TopicEndpointInfo]:
-    """The subscriptions of a topic, without the ears of the simulation's own nodes, which draw what they hear."""
+    """The subscriptions of a topic, without those of the simulation's own nodes, which draw what they receive."""
     return [each for each in node.get_subscriptions_info_by_topic(topic) if not of_the_simulator(each.node_name)]
 
 
@@ -284,7 +284,7 @@ def services(node: Node, include_hidden: bool = False) -> dict[str, list[str]]:
 def expanded(node: Node, name: str, *, is_service: bool = False) -> str:
     """The full name of a topic or service as typed.
 
-    Raises NameValidationException where ROS allows no such name, and CommandError for `{what}` that it does not know.
+    Raises NameValidationException where ROS allows no such name, and CommandError for an unknown substitution such as `{x}`.
     """
     from rclpy.expand_topic_name import expand_topic_name
     from rclpy.validate_full_topic_name import validate_full_topic_name

@@ -166,6 +166,8 @@ _LEFT_OUT_PARTS = {
     "AsyncNode and EventsExecutor are not available here: use Node and SingleThreadedExecutor. Callbacks of a Node may be "
     "`async def`: they can await client.call_async(request).": "experimental AsyncNode EventsExecutor",
 }
+"""What to do without each part, and the modules and names by which programs ask for it."""
+
 _LEFT_OUT = {word: advice for advice, words in _LEFT_OUT_PARTS.items() for word in words.split()}
 
 
