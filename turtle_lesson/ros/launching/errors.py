@@ -6,7 +6,7 @@ import importlib
 import inspect
 import linecache
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -62,7 +62,7 @@ def find_launch_file(world: World, package: str, file_name: str) -> Path:
         raise LaunchError(error.text, None, error.hint) from None
 
 
-def place_of(error: BaseException, written_at: Place | None = None) -> Place | None:
+def _place_of(error: BaseException, written_at: Place | None) -> Place | None:
     """The line to look at.
 
     It is the one that the reader of an XML or YAML file names, or a syntax error's; else the learner's innermost one;
@@ -97,36 +97,27 @@ def _causes(error: BaseException | None) -> list[BaseException]:
     return [] if error is None else [error, *_causes(error.__cause__)]
 
 
-def as_launch_error(error: BaseException, written_at: Place | None, given: Iterable[str]) -> LaunchError:
+def as_launch_error(error: BaseException, written_at: Place | None = None) -> LaunchError:
     """The error as a learner should read it, with a hint of its own or of an error that it came from.
 
-    `written_at` is where the action stands that went wrong, `given` are the names of the launch arguments that were given.
+    `written_at` is where the action stands that went wrong.
     """
     if isinstance(error, LaunchError):
         return error
     reason = repr(error.text) if isinstance(error, PackageNotFoundError) else str(error)
-    hints = (_hint(cause, list(given)) for cause in _causes(error))
-    return LaunchError(reason, place_of(error, written_at), next(filter(None, hints), ""))
+    hints = map(_hint, _causes(error))
+    return LaunchError(reason, _place_of(error, written_at), next(filter(None, hints), ""))
 
 
-def _hint(error: BaseException, given: list[str]) -> str:
-    from launch.actions._groups import MissingLaunchArgumentError
-
+def _hint(error: BaseException) -> str:
     if own := getattr(error, "hint", "") or " ".join(getattr(error, "__notes__", [])):
         return str(own)
-    if isinstance(error, MissingLaunchArgumentError):
-        name = error.argument
-        if close := did_you_mean(name, given):
-            return f"You gave {close.removeprefix('Did you mean ').removesuffix('?')}; did you mean '{name}'?"
-        return f"Give it a value: {name}:=… (in a notebook lesson.launch(…, {name}='…'))."
     if isinstance(error, FileNotFoundError | IsADirectoryError) and isinstance(error.filename, str):
         return _missing_file(Path(error.filename))
     if isinstance(error, ModuleNotFoundError) and (why := index.why_not_here(str(error.name).partition(".")[0])):
         return f"{error.name} is not available here: {why}."
     if isinstance(error, SyntaxError):
         return "Look at this line and at the end of the one before: is a comma, a bracket or a quote missing?"
-    if type(error).__name__ == "InvalidNodeNameException":
-        return "Letters, digits and '_' are allowed, with no digit first."
     for pattern, hint in _BY_TEXT.items():
         if match := re.search(pattern, str(error)):
             return match.expand(hint) if isinstance(hint, str) else hint(match[1])
@@ -196,6 +187,7 @@ _BY_TEXT: dict[str, str | Callable[[str], str]] = {
     r"object has no attribute '(?:visit|describe_sub_entities)'": (
         "Only actions such as Node(…) can be in a launch description."
     ),
+    r"^Invalid node name: ": "Letters, digits and '_' are allowed, with no digit first.",
     r"is not a valid standard output config": "The usual value is output='screen'.",
 }
 """What to try, by the text of an error."""

@@ -134,7 +134,7 @@ class RunningProcess:
             if context.would_handle_event(event):
                 context.emit_event_sync(event)
 
-    def last_words(self) -> None:
+    def report_end(self) -> None:
         """Print how it ended."""
         assert self.process is not None and self.action._program is not None
         code = TERMINATED if self._terminated else self.process.exit_code

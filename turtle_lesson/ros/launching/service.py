@@ -45,9 +45,8 @@ START_UP = 300_000_000
 class LaunchService:
     """Carries out one launch in a world."""
 
-    def __init__(self, world: World, given: dict[str, str]) -> None:
+    def __init__(self, world: World) -> None:
         self.world = world
-        self.given = given
         self.context = LaunchContext()
         self.context._host = self
         self.processes: list[RunningProcess] = []
@@ -97,14 +96,14 @@ class LaunchService:
         if self._ending is not None:
             self._ending.append(process)
             return
-        process.last_words()
+        process.report_end()
         if running_strand() is None:
             self.carry_on(process.after_end)
         else:  # still within the dying process: leave it first
             self.world.sim.call_later(0, self.carry_on, process.after_end)
 
     def _end_processes(self, *, said: bool) -> None:
-        """Interrupt all processes, and see to it that they end. Their last words come after all their output."""
+        """Interrupt all processes, and see to it that they end. How they ended is said after all their output."""
         alive = [process for process in self.processes if process.alive]
         for process in reversed(alive) if said else ():
             process.announce("SIGINT")
@@ -114,7 +113,7 @@ class LaunchService:
                 process.process.interrupt()
         ended, self._ending = self._ending, None
         for process in ended:
-            process.last_words()
+            process.report_end()
             process.after_end()
         for process in alive:
             if process.alive:
@@ -186,7 +185,7 @@ class LaunchService:
                 function()
                 self._settle()
             except Exception as error:
-                self._fail(as_launch_error(error, None, self.given))
+                self._fail(as_launch_error(error))
 
     def interrupt(self) -> None:
         """End it, as Ctrl-C in its terminal would."""
@@ -241,7 +240,7 @@ class LaunchService:
             self._left_out[entity] = error.what
         except Exception as error:
             place = entity._written_at if isinstance(entity, Action) else None
-            raise as_launch_error(error, place, self.given) from error
+            raise as_launch_error(error, place) from error
 
     def _handle(self, event: Event) -> None:
         if isinstance(event, Shutdown):
@@ -263,7 +262,7 @@ class LaunchService:
 
 def service_here() -> LaunchService:
     """A launch in the world that the running code lives in, for a program's own `LaunchService`."""
-    return LaunchService(current_world(), {})
+    return LaunchService(current_world())
 
 
 class LaunchHandle:
@@ -340,7 +339,7 @@ def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgume
         with seeing(LaunchedPackages(world.packages)):
             return source._get_launch_description(str(path)).get_launch_arguments()
     except Exception as error:
-        raise as_launch_error(error, None, {}) from learners_cause(error)
+        raise as_launch_error(error) from learners_cause(error)
 
 
 def show_arguments(world: World, path: Path | str) -> str:
@@ -372,7 +371,7 @@ def _begin(
         argument: str(value).lower() if isinstance(value, bool) else str(value)
         for argument, value in (arguments or {}).items()
     }
-    service = LaunchService(world, given)
+    service = LaunchService(world)
     service.context._output_override = "both" if show_all_output else None
     include = IncludeLaunchDescription(source, launch_arguments=given.items())
     include._written_at = None  # it stands in no launch file

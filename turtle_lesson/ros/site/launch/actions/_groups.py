@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from turtle_lesson.ros.ament import index
 from turtle_lesson.ros.ament.package import NotHereError
+from turtle_lesson.ros.idl.names import did_you_mean
 
 from .._context import LaunchContext
 from .._entities import (
@@ -22,7 +23,6 @@ from .._entities import normalize_to_list_of_substitutions as pieces
 from ..event_handlers import OnShutdown
 from ..frontend import Entity, InvalidLaunchFileError, actions, attribute, expose_action, pair, tags
 from ..launch_description_sources import AnyLaunchDescriptionSource, LaunchDescriptionSource
-from ..utilities import ensure_argument_type
 from ._configuration import SetLaunchConfiguration
 
 __all__ = ["GroupAction", "IncludeLaunchDescription", "OpaqueFunction", "TimerAction"]
@@ -67,14 +67,6 @@ class GroupAction(Action):
 
 DEEPEST = 50
 """So many launch files may lie within one another."""
-
-
-class MissingLaunchArgumentError(RuntimeError):
-    """An included launch file needs an argument that was not given."""
-
-    def __init__(self, message: str, argument: str) -> None:
-        super().__init__(message)
-        self.argument = argument
 
 
 def _given(entity: Entity) -> list[Any]:
@@ -127,11 +119,13 @@ class IncludeLaunchDescription(Action):
             known = [*given, *(name for name in inner if isinstance(name, str))]
             needed = argument.default_value is None and not argument._conditionally_included
             if needed and argument.name not in known:
-                raise MissingLaunchArgumentError(
+                close = did_you_mean(argument.name, known).removeprefix("Did you mean ").removesuffix("?")
+                give = f"Give it a value: {argument.name}:=… (in a notebook lesson.launch(…, {argument.name}='…'))."
+                error = RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
-                    f"(description: '{argument.description}'), given: [{', '.join(known)}]",
-                    argument.name,
+                    f"(description: '{argument.description}'), given: [{', '.join(known)}]"
                 )
+                raise explained(error, f"You gave {close}; did you mean '{argument.name}'?" if close else give)
 
         def within(context: LaunchContext, depth: int, path: str | None) -> None:
             context._include_depth = depth
@@ -179,7 +173,6 @@ class TimerAction(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        ensure_argument_type(actions, Iterable, "actions", "TimerAction")
         self.period = pieces(str(period) if isinstance(period, int | float) else period)
         self.actions = list(actions)
         self.__cancel_on_shutdown = cancel_on_shutdown

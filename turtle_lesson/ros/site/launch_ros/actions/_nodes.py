@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -186,8 +185,6 @@ class Node(ExecuteProcess):
 
 
 def _parameter_file(context: LaunchContext, entry: Any) -> Path:
-    if isinstance(entry, os.PathLike):
-        entry = os.fspath(entry)
     file = entry if isinstance(entry, ParameterFile) else ParameterFile(entry)
     path = file.evaluate(context)
     if not path.is_file():
@@ -196,8 +193,8 @@ def _parameter_file(context: LaunchContext, entry: Any) -> Path:
     return path
 
 
-class _OfComponents(Action):
-    """What has to do with composable nodes. It takes anything, and a launch leaves it out."""
+class _ComposableAction(Action):
+    """Base of the actions for composable nodes: it accepts any arguments, and a launch leaves it out with a warning."""
 
     _tag: ClassVar = {"described": anything}
 
@@ -211,10 +208,10 @@ class _OfComponents(Action):
 
 
 @expose_action("node_container")
-class ComposableNodeContainer(_OfComponents):
+class ComposableNodeContainer(_ComposableAction):
     """A process that loads C++ nodes."""
 
 
 @expose_action("load_composable_node")
-class LoadComposableNodes(_OfComponents):
+class LoadComposableNodes(_ComposableAction):
     """Loads C++ nodes into a container."""
