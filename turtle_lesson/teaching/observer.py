@@ -48,9 +48,14 @@ def answer(question: dict[str, Any], names: dict[str, Any], key: bytes) -> bytes
     rows: list[dict[str, str]] = []
     if not any(each.startswith("the package") for each in replaced):
         with open(os.devnull, "w") as nowhere, contextlib.redirect_stdout(nowhere), contextlib.redirect_stderr(nowhere):
-            before = _forget(question["modules"])
-            with _finding(question["modules"]):
+            sent = question["modules"]
+            before = {name: sys.modules.pop(name) for name in sent if name in sys.modules}
+            finder = _Finder(sent)
+            sys.meta_path.insert(0, finder)
+            try:
                 rows = _look(question, names, before)
+            finally:
+                sys.meta_path.remove(finder)
         replaced += [name for name, old in before.items() for name in _changed(name, old, sys.modules[name])]
     text = json.dumps({"rows": rows, "replaced": sorted(set(replaced))[:MOST]}).encode()
     return hmac.digest(question["secret"] + key, text, hashlib.sha256) + text
@@ -89,20 +94,6 @@ class _Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
     def exec_module(self, module: ModuleType) -> None:
         exec(self._modules[module.__name__][1], vars(module))
-
-
-@contextlib.contextmanager
-def _finding(modules: Sent) -> Iterator[None]:
-    finder = _Finder(modules)
-    sys.meta_path.insert(0, finder)
-    try:
-        yield
-    finally:
-        sys.meta_path.remove(finder)
-
-
-def _forget(modules: Sent) -> dict[str, ModuleType]:
-    return {name: sys.modules.pop(name) for name in modules if name in sys.modules}
 
 
 def strangers(home: str, names: dict[str, Any]) -> list[str]:

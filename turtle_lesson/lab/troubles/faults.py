@@ -8,20 +8,8 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+from ..checks import navigation as nav
 from ..checks.assertions import node, publishes, rate, subscribes
-from ..checks.navigation import (
-    COMMANDS,
-    LONGEST,
-    NAVIGATE,
-    NAVIGATE_TYPE,
-    NEAR,
-    POSE,
-    POSE_TYPE,
-    Drive,
-    Way,
-    drive,
-    where,
-)
 from ..checks.page_04 import STATUS, STATUS_TYPE
 from ..checks.probe import Probe, interface, remembered
 from ..checks.registry import Expectation, expectation
@@ -92,7 +80,7 @@ def message_rows() -> list[Expectation]:
     return [
         found_in("trouble_ws", "robot_controller"),
         importable(STATUS_TYPE),
-        importable(NAVIGATE_TYPE),
+        importable(nav.NAVIGATE_TYPE),
         *status_as_specified(),
     ]
 
@@ -334,7 +322,7 @@ def status_as_specified() -> list[Expectation]:
 def drives(*goals: tuple[float, float]) -> list[Expectation]:
     """The navigator drives the turtle to each of these places, and says so."""
     navigator = there("/navigator", "ros2 run robot_controller navigator")
-    return [navigator, Expectation(f"{NAVIGATE} answers", _answers), *(reaches(x, y) for x, y in goals)]
+    return [navigator, Expectation(f"{nav.NAVIGATE} answers", _answers), *(reaches(x, y) for x, y in goals)]
 
 
 @expectation(f"the goal ({{x:.2f}}, {{y:.2f}}) is reached within {SLOWEST:g} s")
@@ -342,14 +330,14 @@ def reaches(probe: Probe, x: float, y: float) -> Seen:
     """A goal is answered with success in reasonable time, and the turtle is there."""
     it = _drive_to(probe, x, y)
     if it.answer.response is None:
-        return Seen(False, f"no answer in {LONGEST:g} s", 'lesson.plot_timeline("/navigator")')
+        return Seen(False, f"no answer in {nav.LONGEST:g} s", 'lesson.plot_timeline("/navigator")')
     success, end = bool(it.response.success), it.end()
     seen = f"success is {success} after {number(it.answer.seconds)} s, at {point(end.x, end.y)}"
     step = "ros2 topic echo /turtle1/cmd_vel during a call: do commands come, how large, how often, from which node?"
-    return Seen(success and it.distance() <= NEAR and it.answer.seconds <= SLOWEST, seen, step)
+    return Seen(success and it.distance() <= nav.NEAR and it.answer.seconds <= SLOWEST, seen, step)
 
 
-@expectation(f"{COMMANDS}: ten commands a second meanwhile")
+@expectation(f"{nav.COMMANDS}: ten commands a second meanwhile")
 def commands_steady(probe: Probe, x: float, y: float) -> Seen:
     """On the way to a goal, commands come ten times a second."""
     it = _drive_to(probe, x, y)
@@ -360,25 +348,25 @@ def commands_steady(probe: Probe, x: float, y: float) -> Seen:
     return Seen(pause <= 0.125, f"one every {number(pause)} s on average", step)
 
 
-def _drive_to(probe: Probe, x: float, y: float) -> Drive:
+def _drive_to(probe: Probe, x: float, y: float) -> nav.Drive:
     """The drive to a place. Raises CannotLook where the navigator does not answer at all."""
     if not _answers(probe).good:
-        raise CannotLook(f"{NAVIGATE} does not answer")
-    return drive(probe, Way(f"to {x} {y}", None, (x, y, 0.0)))
+        raise CannotLook(f"{nav.NAVIGATE} does not answer")
+    return nav.drive(probe, nav.Way(f"to {x} {y}", None, (x, y, 0.0)))
 
 
 @remembered
 def _answers(probe: Probe) -> Seen:
     """Asked to go where the turtle is, the navigator answers, whether the turtle can move or not."""
-    if not probe.servers(NAVIGATE):
+    if not probe.servers(nav.NAVIGATE):
         step = "ros2 node list, ros2 service list: is the node there, and does it offer the service under another name?"
-        return Seen(False, f"no node offers it{probe.like(NAVIGATE, probe.services())}", step)
+        return Seen(False, f"no node offers it{probe.like(nav.NAVIGATE, probe.services())}", step)
     try:
-        here = where(probe)
+        here = nav.where(probe)
         x, y, theta = here.x, here.y, here.theta
     except CannotLook:
         x, y, theta = 5.5, 5.5, 0.0
-    answer = probe.ask(NAVIGATE, NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
+    answer = probe.ask(nav.NAVIGATE, nav.NAVIGATE_TYPE, 30.0, x=x, y=y, theta=theta)
     if answer.response is None:
         step = 'lesson.plot_timeline("/navigator"): which callback holds the thread? lesson.plot_sequence().'
         return Seen(False, "no answer in 30 s", step)
@@ -387,10 +375,10 @@ def _answers(probe: Probe) -> Seen:
 
 @expectation(f"{STATUS} says where the turtle is")
 def status_follows(probe: Probe) -> Seen:
-    poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
+    poses, statuses = probe.listen(nav.POSE, nav.POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
     probe.wait(0.5)
     if not poses or not statuses:
-        raise CannotLook(f"nothing came on {STATUS if poses else POSE}")
+        raise CannotLook(f"nothing came on {STATUS if poses else nav.POSE}")
     told, true = statuses[-1].message, poses[-1].message
     seen = f"it says {point(told.x, told.y)}, the turtle is at {point(true.x, true.y)}"
     good = math.dist((told.x, told.y), (true.x, true.y)) < 0.3
