@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -60,11 +62,21 @@ def write(folder: Path, name: str, notebook: Any) -> Path:
 
 
 def publish(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A checkout in this folder, with one published page; returns the page."""
+    """A checkout without version control in this folder, with one published page; returns the page."""
     published = folder / "checkout" / "notebooks"
     published.mkdir(parents=True)
+    monkeypatch.setattr(pages, "CHECKOUT", published.parent)
     monkeypatch.setattr(pages, "PUBLISHED", published)
     return write(published, PAGE, was_run(copy(STUB, STUB)))
+
+
+def commit() -> None:
+    """Put the checkout's pages under version control, as they are now."""
+    if shutil.which("git") is None:
+        pytest.skip("there is no git here")
+    git = ["git", "-C", str(pages.CHECKOUT), "-c", "user.name=a", "-c", "user.email=a@b.example"]
+    for words in (["init", "-q"], ["add", "-f", "."], ["commit", "-q", "-m", "pages"]):
+        subprocess.run([*git, *words], check=True)
 
 
 def was_run(notebook: Any) -> Any:

@@ -6,12 +6,13 @@ import csv
 import io
 import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
 from turtle_lesson.teaching import copies
 from turtle_lesson.teaching.copies import Copy, find
-from turtle_lesson.teaching.grade import Graded, as_csv, as_json, in_a_line, in_words
+from turtle_lesson.teaching.grade import Graded, as_csv, as_json, as_junit, in_a_line, in_words
 from turtle_lesson.teaching.pages import PageError
 
 PAGE, OTHER = "01_publish_and_subscribe.ipynb", "03_navigator.ipynb"
@@ -120,6 +121,9 @@ def test_each_report_has_a_column_for_the_learner() -> None:
     assert in_a_line(graded[1]) == "Ben  b.ipynb  0 of 0 points"
     assert [each["learner"] for each in as_json(graded)["copies"]] == ["=Anna ‹b>", "Ben"]
     assert [line["learner"] for line in csv.DictReader(io.StringIO(as_csv(graded)))] == ["'=Anna ‹b>", "Ben"]
+    names = [each.get("value") for each in ElementTree.fromstring(as_junit(graded).encode()).iter("property")]
+    assert names == ["=Anna ‹b>", "Ben"]
+    assert "property" not in as_junit([Graded(Path("c.ipynb"))])
 
 
 def test_a_copy_is_read_as_it_lies_there(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import nbformat
 import psutil
@@ -56,7 +57,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
     copies.write(folder, "forged_package_beside", beside)
     copies.write(folder, "forged_outputs", with_outputs(forged("pass")))
     out, err = io.StringIO(), io.StringIO()
-    reports = ["--csv", str(folder / "points.csv")]
+    reports = ["--junit", str(folder / "junit.xml"), "--csv", str(folder / "points.csv")]
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
         patch.setenv("TEACHERS_TOKEN", "of-the-teacher")
         patch.setattr(runner, "installed", dict)  # work on the lesson may go on meanwhile
@@ -145,19 +146,27 @@ def test_nothing_that_a_copy_has_started_goes_on(run: Run) -> None:
 def test_each_report_names_the_copies_by_their_paths(run: Run) -> None:
     """Two of them have the same file name."""
     amount = len(run.copies)
+    junit = ElementTree.parse(run.folder / "junit.xml").getroot()
+    suites = {each.get("name") for each in junit}
+    assert len({(case.get("classname"), case.get("name")) for case in junit.iter("testcase")}) == len(
+        list(junit.iter("testcase"))
+    )
     table = list(csv.DictReader(io.StringIO((run.folder / "points.csv").read_text(encoding="utf-8"))))
-    assert len(table) == len(run.said.splitlines()) == amount
+    assert len(suites) == len(table) == len(run.said.splitlines()) == amount
     for who, points in (("anna", 6), ("ben", 3)):
         path = str(run.folder / who / "page_01.ipynb")
+        assert path in suites
         assert f"{path}  {points} of 10 points" in run.said
         (line,) = [each for each in table if each["path"] == path]
         assert (line["earned"], line["counter"], line["doubler"]) == (str(points), "3", str(points - 3))
-    (line,) = [each for each in table if each["path"].endswith("forged_runner_replaced.ipynb")]
+    (forged,) = [each for each in junit if each.get("name", "").endswith("forged_runner_replaced.ipynb")]
+    assert "turtle_lesson.lab.checks.registry.run" in forged.findtext("system-out", "")
+    (line,) = [each for each in table if each["path"] == forged.get("name")]
     assert "turtle_lesson.lab.checks.registry.run" in line["remarks"]
 
 
 def test_no_report_passes_on_what_a_terminal_or_a_browser_obeys(run: Run) -> None:
-    table = (run.folder / "points.csv").read_text(encoding="utf-8")
+    junit, table = ((run.folder / name).read_text(encoding="utf-8") for name in ("junit.xml", "points.csv"))
     error = next(each for each in run.copies["error_first"]["errors"] if "ValueError" in each)
     assert error == "cell 3 raised ValueError: red ‹script>alert(1)‹/script>"
     copy = Graded(Path("a\x1b[2J\x07<b>.ipynb"), errors=["\x1b]8;;http://x\x1b\\link", "=HYPERLINK(1)"])
@@ -165,6 +174,7 @@ def test_no_report_passes_on_what_a_terminal_or_a_browser_obeys(run: Run) -> Non
         CheckScore("counter", 3, "failed", [{"mark": "✗", "expected": "\x9b31ma", "seen": "<i>", "next": ""}])
     ]
     for text in (
+        junit,
         table,
         run.said,
         in_words([copy]),

@@ -11,6 +11,7 @@ import nbformat
 import pytest
 import teaching_copies as copies
 
+from turtle_lesson.lab.progress import FILE, ProgressFile
 from turtle_lesson.teaching import main as command
 from turtle_lesson.teaching import pages
 from turtle_lesson.teaching.main import main
@@ -140,6 +141,53 @@ def test_reset_in_a_learners_folder_leaves_no_outputs(
     assert "It already was." in capsys.readouterr().out
 
 
+def test_what_was_begun_in_notebooks_is_taken_along(checkout: Path, mine: Path) -> None:
+    copies.commit()
+    work(checkout)
+    source = checkout.parent / "workspace" / "src" / "robot_controller" / "navigator.py"
+    for file in (source, checkout.parent / "workspace" / "build" / "x"):
+        file.parent.mkdir(parents=True)
+        file.write_text("mine")
+    ProgressFile(checkout.parent / FILE).keep({"counter": 3, "doubler": 2})
+    update(mine)
+    assert nbformat.read(mine, as_version=4).cells[1].source == copies.STUB
+    ProgressFile(mine.parent / FILE).keep({"doubler": 3})
+    assert LearnersFolder(mine.parent).take_along() == [
+        f"{NAME} was copied.",
+        "The workspace was copied without its build: build it again.",
+        "5 points were copied.",
+    ]
+    page = nbformat.read(mine, as_version=4)
+    assert page.cells[1].source == copies.RIGHT and not page.cells[1].outputs
+    assert (mine.parent / "workspace" / "src" / "robot_controller" / "navigator.py").read_text() == "mine"
+    assert not (mine.parent / "workspace" / "build").exists()
+    assert ProgressFile(mine.parent / FILE).points() == {"counter": 3, "doubler": 3}
+    assert update(mine) == [], "it is work on the published version that is there"
+
+
+def test_what_is_here_already_is_not_overwritten_by_what_is_taken_along(checkout: Path, mine: Path) -> None:
+    copies.commit()
+    update(mine)
+    work(mine, copies.TOO_SLOW)
+    before = mine.read_bytes()
+    work(checkout)
+    for folder in (mine.parent, checkout.parent):
+        (folder / "workspace").mkdir()
+    said = LearnersFolder(mine.parent).take_along()
+    assert said[0] == f"{NAME} was copied, as {copies.PAGE}.mine-1.ipynb."
+    assert "There is a workspace" in said[1]
+    assert mine.read_bytes() == before
+
+
+def test_nothing_to_take_along_is_said(checkout: Path, mine: Path) -> None:
+    copies.commit()
+    update(mine)
+    assert LearnersFolder(mine.parent).take_along() == [f"No page was begun in {checkout.parent}."]
+
+
+# -- the command ---------------------------------------------------------------------------------------------------------
+
+
 @pytest.fixture
 def served(checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
     """The folders for which the command would start JupyterLab, which has a test of its own in a browser."""
@@ -155,9 +203,21 @@ def test_without_a_command_and_again_inside_the_same_folder_is_opened(
     assert main([]) == 0
     monkeypatch.chdir(mine.parent)
     assert main(["open"]) == 0
-    assert served == [mine.parent] * 2
+    assert main(["open", "--take-along", str(mine.parent)]) == 0
+    assert served == [mine.parent] * 3
     assert main(["open", str(mine.parent / "deeper")]) == 0
     assert (mine.parent / "deeper" / NAME).is_file()
+
+
+def test_a_new_folder_reminds_of_what_was_begun_elsewhere(
+    served: list[Path], checkout: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copies.commit()
+    work(checkout)
+    assert main(["open"]) == 0
+    assert f"You began {NAME} in {checkout.parent}. Add --take-along" in capsys.readouterr().out
+    assert main(["open"]) == 0
+    assert "--take-along" not in capsys.readouterr().out
 
 
 def test_a_folder_that_cannot_be_the_learners_is_explained(
@@ -195,6 +255,20 @@ def test_missing_pages_are_explained(
     assert "the lesson's pages are not here" in capsys.readouterr().err
     assert main(["open", "--from", str(REAL)]) == 0
     assert main(["open"]) == 0, "pages that are there can be opened without the checkout"
+
+
+def test_a_port_that_is_in_use_is_explained(
+    checkout: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import socket
+
+    monkeypatch.chdir(tmp_path)
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        assert main(["open", "--port", str(port)]) == 1
+    assert f"port {port} cannot be used: address already in use. Without --port" in capsys.readouterr().err
 
 
 def test_readmes_first_command_ends_in_opening_the_lesson() -> None:

@@ -42,9 +42,18 @@ def test_a_renamed_copy_is_known_by_its_page(checkout: Path, mine: Path) -> None
     assert anna.read_bytes() == checkout.read_bytes()
 
 
-def test_the_published_page_itself_is_not_reset(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_published_page_itself_needs_version_control(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["reset", str(checkout)]) == 1
-    assert "is the published page itself" in capsys.readouterr().err
+    assert "--from FOLDER" in capsys.readouterr().err
+
+
+def test_with_version_control_the_published_page_is_what_was_committed(checkout: Path) -> None:
+    published = checkout.read_bytes()
+    copies.commit()
+    checkout.write_text("edited in place")
+    assert main(["reset", str(checkout)]) == 0
+    assert checkout.read_bytes() == published
+    assert checkout.with_name(f"{copies.PAGE}.mine-1.ipynb").read_text() == "edited in place"
 
 
 def test_missing_pages_are_said(checkout: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -52,7 +61,7 @@ def test_missing_pages_are_said(checkout: Path, tmp_path: Path, capsys: pytest.C
     assert main(["reset", str(other)]) == 1
     assert "is not here" in capsys.readouterr().err
     assert main(["reset", str(other), "--from", str(tmp_path / "nowhere")]) == 1
-    assert f"is not here (it would be in {tmp_path / 'nowhere'})" in capsys.readouterr().err
+    assert "there is no something_else.ipynb" in capsys.readouterr().err
     assert main(["reset", str(tmp_path / "notes.txt")]) == 1
 
 

@@ -55,6 +55,12 @@ class ProgressFile:
         self._failures.update(failures)
         return {name: each for name, each in self._points.items() if each}
 
+    def keep(self, points: dict[str, int]) -> None:
+        """Take over points that were earned elsewhere, where they are more than here."""
+        here = self.points()
+        self._points |= {name: max(each, here.get(name, 0)) for name, each in points.items()}
+        self._write()
+
     def _read(self) -> tuple[dict[str, int], dict[str, int]]:
         """The points, and the failures in a row, that the file holds."""
         if self.path is None or not self.path.is_file():

@@ -10,11 +10,13 @@ import csv
 import io
 import re
 import textwrap
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 from ..lab.checks.registry import all_checks, checks_of
 from ..lab.checks.results import GOOD
@@ -146,7 +148,7 @@ def _scored(page: str, asked: list[str], rows: dict[str, list[dict[str, str]]]) 
     return scores
 
 
-# -- reports: a table to read, JSON and CSV -------------------------------------------------------------------------------
+# -- reports: a table to read, JSON, CSV and JUnit -------------------------------------------------------------------------
 
 MARKS = {"passed": "✓", "failed": "✗", "not run": "–"}
 WIDTH = 110
@@ -256,3 +258,41 @@ def _cell(text: str) -> str:
     """A text that a spreadsheet does not take for a formula."""
     words = _in_line(text)
     return f"'{words}" if words.startswith(("=", "+", "-", "@")) else words
+
+
+def as_junit(graded: Sequence[Graded]) -> str:
+    """A JUnit report, as XML: a suite for each copy, a case for each check."""
+    root = ElementTree.Element("testsuites", name="turtle-lesson")
+    for copy in graded:
+        root.append(_suite(copy))
+    ElementTree.indent(root)
+    return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _suite(copy: Graded) -> ElementTree.Element:
+    states = Counter(each.state for each in copy.scores)
+    suite = ElementTree.Element(
+        "testsuite",
+        name=plain(str(copy.path)),
+        tests=str(len(copy.scores) + bool(copy.problem)),
+        failures=str(states["failed"]),
+        skipped=str(states["not run"]),
+        errors=str(int(bool(copy.problem))),
+    )
+    if copy.learner:
+        properties = ElementTree.SubElement(suite, "properties")
+        ElementTree.SubElement(properties, "property", name="learner", value=_in_line(copy.learner))
+    name = plain(str(copy.path.with_suffix("")))
+    for score in copy.scores:
+        case = ElementTree.SubElement(suite, "testcase", classname=name, name=score.name)
+        if score.state == "not run":
+            ElementTree.SubElement(case, "skipped", message="it was not run")
+        elif score.state == "failed":
+            failure = ElementTree.SubElement(case, "failure", message=plain(score.first_miss))
+            failure.text = plain("\n".join(f"{row['mark']} {row['expected']}: {row['seen']}" for row in score.rows))
+    if copy.problem:
+        case = ElementTree.SubElement(suite, "testcase", classname=name, name="the notebook runs")
+        ElementTree.SubElement(case, "error", message=plain(copy.problem))
+    if copy.errors:
+        ElementTree.SubElement(suite, "system-out").text = plain("\n".join(copy.errors))
+    return suite

@@ -6,6 +6,7 @@ import argparse
 import json
 import os
 import runpy
+import socket
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
@@ -15,7 +16,7 @@ from ..ros.runtime.files import OPENED
 from ..ros.sim.errors import print_error
 from . import pages
 from .copies import MEMORY, PATIENCE, TIMEOUT, find
-from .grade import Graded, as_csv, as_json, grade, in_a_line, in_words
+from .grade import Graded, as_csv, as_json, as_junit, grade, in_a_line, in_words
 
 JUPYTER = Path(__file__).resolve().parent / "jupyter"
 """Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""
@@ -72,13 +73,16 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     text = "Open your own folder of the lesson's pages in JupyterLab. It is made if it does not exist; your work in it stays."
-    text += " Other options, such as --no-browser, are passed on to JupyterLab."
+    text += " Other options are passed on to JupyterLab."
     opening = commands.add_parser("open", help="your folder of pages, in JupyterLab", description=text)
     opening.set_defaults(act=_open)
     where = f"your folder (default: this one if it is yours already, or else {pages.FOLDER} in it)"
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
+    opening.add_argument("--no-browser", action="store_true", help="only print the address")
     port = "port of this machine (default: 8888 or the next free one)"
     opening.add_argument("--port", type=int, metavar="N", help=port)
+    begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
+    opening.add_argument("--take-along", action="store_true", help=begun)
     hub = "be a learner's server of JupyterHub, which calls this command (deploy/jupyterhub shows how)"
     opening.add_argument("--hub", action="store_true", help=hub)
 
@@ -89,6 +93,7 @@ def _parser() -> argparse.ArgumentParser:
         "paths", nargs="+", type=Path, metavar="PATH", help="a notebook, or a folder or zip file of notebooks"
     )
     grading.add_argument("--json", action="store_true", help="print JSON, with every row of every check")
+    grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
     grading.add_argument("--csv", type=Path, metavar="FILE", help="also write a table with a line for each copy")
     how_long = f"computing time that one copy may take, s (default: {TIMEOUT:g}); waiting, {PATIENCE} times as long"
     seconds = _number(float, 1, 86400, " seconds")
@@ -154,8 +159,12 @@ def _grade(options: argparse.Namespace) -> int:
     os.environ["TURTLE_LESSON_CACHE"] = "off"  # a copy runs with the teacher's rights, and could have written into it
     graded = grade(copies, options.timeout, options.jobs or cores(), tell, options.memory, options.client)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
-    if options.csv is not None:
-        options.csv.write_text(as_csv(graded), encoding="utf-8")
+    for file, text in ((options.junit, as_junit), (options.csv, as_csv)):
+        if file is not None:
+            try:
+                file.write_text(text(graded), encoding="utf-8")
+            except OSError as error:
+                raise pages.PageError(f"{file} cannot be written: {error.strerror}") from None
     return 1 if any(copy.problem for copy in graded) else 0
 
 
@@ -166,8 +175,15 @@ def _open(options: argparse.Namespace) -> int:
                 "--hub is for JupyterHub, which calls this command. Without it, JupyterLab opens here."
             )
         os.umask(0o077)  # from the folder on, nothing that is made here is for other users of the computer
-    folder = pages.LearnersFolder(options.folder or Path("." if pages.is_learners(Path(".")) else pages.FOLDER))
-    said = [*folder.update(options.source), f"Your pages are in {folder.path.resolve()}."]
+    path = options.folder or Path("." if pages.is_learners(Path(".")) else pages.FOLDER)
+    new = not pages.is_learners(path)
+    folder = pages.LearnersFolder(path)
+    said = folder.update(options.source)
+    if options.take_along:
+        said += folder.take_along()
+    elif new and (begun := pages.begun()):
+        said.append(f"You began {', '.join(begun)} in {pages.PUBLISHED}. Add --take-along to bring your work here.")
+    said.append(f"Your pages are in {folder.path.resolve()}.")
     if options.hub:
         print("\n".join(said))
         return serve(folder.path, "jupyterhub.singleuser", options.more)
@@ -175,7 +191,10 @@ def _open(options: argparse.Namespace) -> int:
     words = ["--Application.log_level=ERROR", *options.more, "--ServerApp.ip=127.0.0.1"]
     words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
     if options.port is not None:
+        _check_free(options.port)
         words += [f"--ServerApp.port={options.port}", "--ServerApp.port_retries=0"]
+    if options.no_browser:
+        words.append("--no-browser")
     return serve(folder.path, "jupyterlab", words)
 
 
@@ -189,6 +208,19 @@ def serve(folder: Path, server: str, options: Sequence[str]) -> int:
     if os.name == "posix":
         os.execve(sys.executable, words, environment)
     return subprocess.call(words, env=environment)
+
+
+def _check_free(port: int) -> None:
+    with socket.socket() as probe:
+        if os.name == "posix":  # as Jupyter's own: a port that was used a moment ago is free
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except (OSError, OverflowError) as error:
+            reason = (getattr(error, "strerror", None) or str(error)).lower().rstrip(".")
+            raise pages.PageError(
+                f"port {port} cannot be used: {reason}. Without --port, a free one is found."
+            ) from None
 
 
 def _reset(options: argparse.Namespace) -> int:

@@ -9,15 +9,19 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
+import subprocess
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import nbformat
 
+from ..lab import progress
 from ..learner.story import PAGES, PUBLISHED
 from ..ros.runtime import files
 
+CHECKOUT = PUBLISHED.parent
+"""Where the project lies, if it was installed from its checkout (as README says)."""
 SOLUTION = "solution"
 """Tag of the cells that hold a solution."""
 
@@ -26,6 +30,9 @@ FOLDER = "my-lesson"
 MEMORY = ".turtle_lesson_pages.json"
 NAMES = tuple(f"{page}.ipynb" for page in (*PAGES, "lab"))
 """The files that a learner gets."""
+
+NOT_TAKEN = ("build", "install", "log")
+"""What a build makes anew in a workspace."""
 
 
 class PageError(Exception):
@@ -36,6 +43,10 @@ def read(path: Path) -> nbformat.NotebookNode:
     """The notebook in a file. Raises PageError, which says why it cannot be read."""
     try:
         text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise PageError(f"{path} does not exist") from None
+    except IsADirectoryError:
+        raise PageError(f"{path} is a folder; name the notebook in it") from None
     except OSError as error:
         raise PageError(f"{path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
@@ -81,6 +92,8 @@ def reset(path: Path, published: str | bytes) -> Path | None:
     if path.exists():
         kept = unused(path, "mine")
         shutil.copy2(path, kept)
+    elif not path.parent.is_dir():
+        raise PageError(f"{path.parent} does not exist")
     path.write_bytes(content)
     return kept
 
@@ -91,21 +104,60 @@ def unused(path: Path, word: str) -> Path:
 
 
 def published(path: Path, source: Path | None = None) -> bytes:
-    """The published page that a copy is of: what lies in `source`, or else what was installed. Raises PageError."""
+    """The published page that a copy is of.
+
+    Published is what lies in `source`; without one, what the checkout's version control holds, or else what was installed.
+    Raises PageError where it is found in neither.
+    """
     if path.suffix != ".ipynb":
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
-    name = path.name
-    if not (PUBLISHED / name).is_file():  # it was renamed
-        metadata = None
-        with suppress(PageError):  # damaged: all the more reason to reset it
-            metadata = read(path).metadata
-        page = page_of(path, metadata)
-        name = f"{page}.ipynb" if page else name
+    name = _published_name(path)
+    content = find_published(name, source)
+    if content is None and source is not None:
+        raise PageError(f"there is no {name} in {source}")
+    if content is None:
+        raise PageError(
+            f"the published {name} is not here (it would be in {PUBLISHED}). Name a folder of published pages: "
+            "--from FOLDER"
+        )
+    if source is None and (PUBLISHED / name).resolve() == path.resolve() and _from_git(name) is None:
+        raise PageError(
+            f"{name} is the published page itself, and the checkout has no version control that could restore it. "
+            "Download the lesson again, and name its folder of notebooks: --from FOLDER"
+        )
+    return content
+
+
+def find_published(name: str, source: Path | None = None) -> bytes | None:
+    """The published page of a name; None if there is none."""
+    committed = _from_git(name) if source is None else None
+    if committed is not None:
+        return committed
     file = (source or PUBLISHED) / name
-    if not file.is_file() or file.resolve() == path.resolve():
-        what = "is the published page itself" if file.is_file() else f"is not here (it would be in {file.parent})"
-        raise PageError(f"the published {name} {what}. Name a folder of published pages: --from FOLDER")
-    return file.read_bytes()
+    return file.read_bytes() if file.is_file() else None
+
+
+def _published_name(path: Path) -> str:
+    """The page's own file name: that of the copy, or of the page whose name is a part of it."""
+    if (PUBLISHED / path.name).is_file():
+        return path.name
+    try:
+        page = page_of(path, read(path).metadata)
+    except PageError:  # damaged: all the more reason to reset it
+        page = page_of(path)
+    return f"{page}.ipynb" if page else path.name
+
+
+def _from_git(name: str) -> bytes | None:
+    """A page as the checkout's version control has it; None where there is no checkout, no git or no such page."""
+    if not (CHECKOUT / ".git").exists():
+        return None
+    command = ["git", "-C", str(CHECKOUT), "show", f"HEAD:notebooks/{name}"]
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=30, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return done.stdout if done.returncode == 0 else None
 
 
 def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
@@ -122,6 +174,8 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
         raise PageError(
             f"{target} already exists, and nothing is ever overwritten: choose another name with --to"
         ) from None
+    except OSError as error:
+        raise PageError(f"{target} cannot be written: {error.strerror}") from None
     return target, removed
 
 
@@ -158,16 +212,12 @@ class LearnersFolder:
         """
         said = []
         for name in NAMES:
-            file = (source or PUBLISHED) / name
-            if not file.is_file():
+            content = find_published(name, source)
+            if content is None:
                 continue
-            newer = clear(read(file))
-            newest, mine, made_from = version(newer), version_of(self.path / name), self._versions.get(name)
-            if mine in (newest, made_from) or not (self.path / name).exists():
-                if mine != newest:
-                    nbformat.write(newer, self.path / name)
-                self._versions[name] = newest
-            elif made_from != newest:
+            newer = clear(parse(content, Path(name)))
+            newest = version(newer)
+            if not self._put(name, newer, newest) and self._versions.get(name) != newest:
                 beside = unused(self.path / name, "new")
                 nbformat.write(newer, beside)
                 self._versions[name] = newest
@@ -183,6 +233,17 @@ class LearnersFolder:
             )
         return said
 
+    def _put(self, name: str, page: nbformat.NotebookNode, made_from: str) -> bool:
+        """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
+        path = self.path / name
+        mine = version_of(path)
+        if mine != version(page):
+            if path.exists() and mine != self._versions.get(name):
+                return False
+            nbformat.write(page, path)
+        self._versions[name] = made_from
+        return True
+
     def reset(self, path: Path, published: bytes) -> Path | None:
         """Put a page back as it was published, without outputs; returns where the learner's copy is kept, if it differs."""
         page = clear(parse(published, path))
@@ -190,10 +251,48 @@ class LearnersFolder:
         self._remember()
         return reset(path, nbformat.writes(page) + "\n")
 
+    def take_along(self) -> list[str]:
+        """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.
+
+        What is here already stays. Returns sentences about what was done.
+        """
+        said = []
+        for name in begun():
+            page, path = clear(read(PUBLISHED / name)), self.path / name
+            if not self._put(name, page, self._versions.get(name, "")):
+                path = unused(path, "mine")
+                nbformat.write(page, path)
+            said.append(f"{name} was copied" + (f", as {path.name}." if path.name != name else "."))
+        self._remember()
+        theirs, mine = PUBLISHED / "workspace", self.path / "workspace"
+        if theirs.is_dir() and mine.exists():
+            said.append(f"There is a workspace in {self.path} already: {theirs} was not copied.")
+        elif theirs.is_dir():
+            shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns(*NOT_TAKEN))
+            said.append("The workspace was copied without its build: build it again.")
+        points = progress.ProgressFile(PUBLISHED / progress.FILE).points()
+        if points:
+            progress.ProgressFile(self.path / progress.FILE).keep(points)
+            said.append(f"{sum(points.values())} points were copied.")
+        return said or [f"No page was begun in {PUBLISHED}."]
+
 
 def is_learners(path: Path) -> bool:
     """Whether this is a learner's folder already."""
     return (path / MEMORY).is_file()
+
+
+def begun() -> list[str]:
+    """The pages in the checkout's `notebooks` that differ from what its version control holds."""
+    found = []
+    for name in NAMES:
+        committed = find_published(name)
+        mine = PUBLISHED / name
+        if committed is not None and mine.is_file() and mine.read_bytes() != committed:
+            original = clear(parse(committed, mine))
+            if version(clear(read(mine))) != version(original):
+                found.append(name)
+    return found
 
 
 def version(notebook: nbformat.NotebookNode) -> str:
