@@ -122,10 +122,10 @@ class ThisLaunchFile(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The path. Raises SubstitutionFailure outside of a launch file."""
-        values = context.get_locals_as_dict()
-        if "current_launch_file_path" not in values:
+        path = context.get_locals_as_dict().get("current_launch_file_path")
+        if path is None:
             raise SubstitutionFailure(f"{type(self).__name__} used outside of a launch file (in a script)")
-        return str(values["current_launch_file_path"])
+        return str(path)
 
 
 @expose_substitution("dirname")

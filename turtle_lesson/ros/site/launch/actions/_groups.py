@@ -129,10 +129,7 @@ class IncludeLaunchDescription(Action):
 
         def within(context: LaunchContext, depth: int, path: str | None) -> None:
             context._include_depth = depth
-            if path is None:
-                context._locals.pop("current_launch_file_path", None)
-            else:
-                context.extend_locals({"current_launch_file_path": path})
+            context.extend_locals({"current_launch_file_path": path})
 
         within(context, depth + 1, path)
         sets = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
