@@ -6,6 +6,7 @@ import asyncio
 from typing import Any
 
 import pytest
+from builtin_interfaces.msg import Time
 from hypothesis import given
 from hypothesis import strategies as st
 from lab_fakes import order
@@ -20,11 +21,11 @@ from turtle_lesson.lab.widgets.message_fields import (
     constants_of,
     find_class,
     find_part,
+    in_yaml,
     kinds_of,
-    plain,
     read_kind,
 )
-from turtle_lesson.ros.idl.names import integer_bounds
+from turtle_lesson.ros.idl.names import integer_bounds, is_hidden
 
 
 def group(type_name: str) -> Group:
@@ -45,8 +46,6 @@ def rows(whole: Group, path: str) -> Rows:
 
 
 def message(whole: Group) -> Any:
-    from builtin_interfaces.msg import Time
-
     return whole.build(lambda: Time(sec=7))
 
 
@@ -175,7 +174,7 @@ def test_fixed_and_bounded_arrays() -> None:
     bounded = Rows("sizes", Kind("double", "bounded", 3), [], {})
     for _ in range(3):
         bounded.add()
-    assert bounded.why_full == "at most 3" and bounded.value() == [0.0, 0.0, 0.0]
+    assert bounded.why_full == "at most 3" and bounded.build(Time) == [0.0, 0.0, 0.0]
     with pytest.raises(ValueError, match="can have no more rows: at most 3"):
         bounded.add()
     assert Single("name", Kind("string", longest=3), "", {}).state()["help"] == "at most 3 characters"
@@ -307,6 +306,8 @@ def test_one_can_stop_waiting(lesson: Lesson) -> None:
 def test_a_form_can_be_for_any_topic_and_service_that_is_there(lesson: Lesson) -> None:
     node = lesson._recording.node
     for name, _ in (*node.get_topic_names_and_types(), *node.get_service_names_and_types()):
+        if is_hidden(name):  # of an action: its parts are no types of a form
+            continue
         assert lesson.form(name).line.startswith(("ros2 topic pub --once ", "ros2 service call "))
 
 
@@ -376,4 +377,4 @@ def test_it_stops_when_its_last_view_closes() -> None:
 def test_a_float32_is_shown_with_its_own_digits() -> None:
     from robot_controller.srv import NavigateTo
 
-    assert plain(NavigateTo.Response(success=True, time_taken=1.9)) == {"success": True, "time_taken": 1.9}
+    assert in_yaml(NavigateTo.Response(success=True, time_taken=1.9)) == "success: true\ntime_taken: 1.9"

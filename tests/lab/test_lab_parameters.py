@@ -222,9 +222,9 @@ def test_values_are_read_by_their_type(typed: Any, kind: int, value: Any) -> Non
         ("1.5", INTEGER, "a whole number such as 3 is wanted, got"),
         (str(2**64), INTEGER, "to 9223372036854775807 fits here"),
         ("x", DOUBLE, 'a number such as 1.5 is wanted, got "x"'),
-        ("1, 2", DOUBLES, "a list of numbers is expected, such as [1, 2]"),
-        ("[1, a]", DOUBLES, "'a' is none"),
-        ("[1", DOUBLES, "is not valid YAML"),
+        ("1, 2", DOUBLES, "a list of numbers is expected, such as [1.5, 2]"),
+        ("[1, a]", DOUBLES, "a list of numbers is expected"),
+        ("[1", DOUBLES, "a list of numbers is expected"),
         ("[1]", STRINGS, "a list of texts"),
     ],
 )

@@ -20,7 +20,7 @@ from rclpy.task import Future
 
 from ..graph import others
 from ..words import enumerated, listed, number
-from .message_fields import plain
+from .message_fields import in_yaml
 
 if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -205,9 +205,6 @@ PATIENCE = 1.0
 DISCOVERY = 2.0
 """Seconds for which a question is held back on a real network, until a new client has found its server."""
 
-LONGEST_LIST = 50
-"""How many elements of an array are shown of an answer."""
-
 
 class LazyPublisher:
     """Publishes messages of one class on one topic. Until the first message the graph shows nothing of it."""
@@ -370,22 +367,3 @@ class LazyClient:
     def _end(self, words: str, answer: str = "") -> None:
         self.give_up()
         self._answered(words, answer)
-
-
-def in_yaml(message: Any) -> str:
-    """A message in lines as `ros2 topic echo` shows it; of a long array the first elements."""
-    import yaml
-
-    fields = _shortened(plain(message))
-    if not fields:
-        return "(the answer has no fields)"
-    return yaml.safe_dump(fields, sort_keys=False, allow_unicode=True, default_flow_style=False).strip()
-
-
-def _shortened(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _shortened(each) for name, each in value.items()}
-    if isinstance(value, list):
-        rest = [f"… and {len(value) - LONGEST_LIST} more"] if len(value) > LONGEST_LIST else []
-        return [*map(_shortened, value[:LONGEST_LIST]), *rest]
-    return value

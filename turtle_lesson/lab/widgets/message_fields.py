@@ -6,29 +6,26 @@ attributes in capitals), so it works alike with the simulated ones and with the 
 
 from __future__ import annotations
 
-import importlib
 import math
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
+from rosidl_runtime_py.utilities import get_interface
 
 from ...ros.idl.checks import FLOAT_BOUNDS
 from ...ros.idl.names import integer_bounds
-from ..words import same
-
-Number = TypeVar("Number", int, float)
+from ..words import same, shortened
 
 FLOATS = {"float", "double"}
 WHOLE = {"octet", "char"} | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
 """How a .msg file calls what a Python class calls by its IDL name."""
 
-_SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>$")
-_FIXED = re.compile(r"(.+)\[(\d+)\]$")
-_BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>$")
+_KIND = re.compile(r"(sequence<)?([\w/]+)(?:<(\d+)>)?(?:, (\d+))?>?(?:\[(\d+)\])?")
+"""An array of any length, the base, most characters, most elements, just so many elements."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,14 +63,11 @@ class Kind:
 
 def read_kind(text: str) -> Kind:
     """The kind that `get_fields_and_field_types` calls `text`: "sequence<double, 3>", "uint8[4]", "string<10>", …"""
-    array, size = "", 0
-    if found := _SEQUENCE.match(text):
-        text, array, size = found[1], "bounded" if found[2] else "unbounded", int(found[2] or 0)
-    elif found := _FIXED.match(text):
-        text, array, size = found[1], "fixed", int(found[2])
-    if found := _BOUNDED_TEXT.match(text):
-        return Kind(found[1], array, size, int(found[2]))
-    return Kind(text, array, size)
+    found = _KIND.fullmatch(text)
+    assert found is not None, text
+    sequence, base, longest, most, size = found.groups()
+    array = "fixed" if size else "bounded" if most else "unbounded" if sequence else ""
+    return Kind(base, array, int(size or most or 0), int(longest or 0))
 
 
 def kinds_of(message_class: Any) -> dict[str, Kind]:
@@ -95,74 +89,72 @@ def constants_of(message_class: Any) -> dict[str, Any]:
     return found
 
 
-def read_float(text: str, base: str) -> float:
+def read_number(text: str, base: str) -> float:
     """The number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
-    value = _typed(float, text.strip(), "a number such as 1.5")
+    typed, is_float = text.strip().replace("−", "-"), base in FLOATS
+    wanted = "a number such as 1.5" if is_float else "a whole number such as 3"
+    try:
+        value = float(typed) if is_float else int(typed)
+    except ValueError:
+        if not typed:
+            raise ValueError(f"{wanted} is missing") from None
+        why = ": write a point, not a comma" if "," in typed else ""
+        raise ValueError(f'{wanted} is wanted, got "{shortened(typed, 30)}"{why}') from None
     if base == "float" and math.isfinite(value) and abs(value) > FLOAT_BOUNDS["float32"]:
         raise ValueError("a float32 goes up to 3.4e38")
+    if not is_float:
+        low, high = integer_bounds(base)
+        if not low <= value <= high:
+            raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
-
-
-def read_integer(text: str, base: str) -> int:
-    """The whole number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
-    value = _typed(int, text.strip(), "a whole number such as 3")
-    low, high = integer_bounds(base)
-    if not low <= value <= high:
-        raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
-    return value
-
-
-def _typed(kind: Callable[[str], Number], text: str, wanted: str) -> Number:
-    try:
-        return kind(text.replace("−", "-"))
-    except ValueError:
-        if not text:
-            raise ValueError(f"{wanted} is missing") from None
-        shown = text if len(text) <= 30 else f"{text[:30]}…"
-        why = ": write a point, not a comma" if "," in text else ""
-        raise ValueError(f'{wanted} is wanted, got "{shown}"{why}') from None
 
 
 def find_class(type_name: str) -> Any:
-    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist", "turtlesim/srv/Spawn" or of an action's part.
-
-    Those behind an action, such as "turtlesim/action/RotateAbsolute_FeedbackMessage", are found in it.
+    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist" or "turtlesim/srv/Spawn".
 
     Raises ValueError where it cannot be imported, with what to try.
     """
-    package, _, rest = type_name.partition("/")
-    folder, _, name = rest.rpartition("/")
     try:
-        if "_" in name and folder in ("", "action"):
-            action_name, _, part = name.partition("_")
-            action = getattr(importlib.import_module(f"{package}.action"), action_name)
-            if hasattr(action, part):  # X.Goal for "X_Goal"
-                return getattr(action, part)
-            # what carries it, such as X_FeedbackMessage or X_SendGoal, is in X.Impl
-            return getattr(action.Impl, part if hasattr(action.Impl, part) else f"{part}Service")
-        return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
+        return get_interface(type_name if type_name.count("/") > 1 else type_name.replace("/", "/msg/"))
     except (ImportError, AttributeError):
         raise ValueError(
             f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
-            f"colcon build --packages-select {package}, then source install/setup.bash"
+            f"colcon build --packages-select {type_name.partition('/')[0]}, then source install/setup.bash"
         ) from None
 
 
-def plain(value: Any, kind: Kind | None = None) -> Any:
-    """A message, or a field's value, as YAML and JSON have it: dictionaries, lists, numbers, text.
+def plain(value: Any, kind: Kind) -> Any:
+    """A number, truth or text of a field, as YAML and JSON have it.
 
     A float32 is written with the digits that it has: 1.9, not 1.899999976158142.
     """
+    if isinstance(value, bytes):
+        return value[0]
+    value = value.item() if isinstance(value, np.generic) else value
+    return float(str(np.float32(value))) if kind.base == "float" else value
+
+
+LONGEST_LIST = 50
+"""How many elements of an array are shown of a message."""
+
+
+def in_yaml(message: Any) -> str:
+    """A message in lines as `ros2 topic echo` shows it; of a long array the first elements."""
+    import yaml
+
+    fields = _shown(message, Kind(""))
+    if not fields:
+        return "(the answer has no fields)"
+    return yaml.safe_dump(fields, sort_keys=False, allow_unicode=True, default_flow_style=False).strip()
+
+
+def _shown(value: Any, kind: Kind) -> Any:
+    if kind.array:
+        rest = [f"… and {len(value) - LONGEST_LIST} more"] if len(value) > LONGEST_LIST else []
+        return [*(_shown(each, kind.element) for each in value[:LONGEST_LIST]), *rest]
     if hasattr(value, "get_fields_and_field_types"):
-        return {name: plain(getattr(value, name), each) for name, each in kinds_of(value).items()}
-    if isinstance(value, float):
-        return float(str(np.float32(value))) if kind is not None and kind.base == "float" else value
-    if isinstance(value, (bool, int, str)):
-        return value
-    if isinstance(value, (bytes, bytearray)):
-        return value[0] if len(value) == 1 else list(value)
-    numbers = value.tolist() if hasattr(value, "tolist") else value  # numpy's arrays and those of the array module
-    return [plain(each, kind) for each in numbers]
+        return {name: _shown(getattr(value, name), each) for name, each in kinds_of(value).items()}
+    return plain(value, kind)
 
 
 # -- a form: a tree of groups, rows and single fields, each with the text that stands in it -------------------------------
@@ -195,15 +187,11 @@ class Part:
             yield from part.singles()
 
     def build(self, now: Build) -> Any:
-        """The value, as the message's field wants it."""
-        raise NotImplementedError
-
-    def value(self) -> Any:
-        """The value, as YAML has it. Raises ValueError, in words, for what a field cannot be."""
+        """The value, as the message's field wants it. Raises ValueError, in words, for what a field cannot be."""
         raise NotImplementedError
 
     def changed(self) -> Any:
-        """The value as far as it is not the default, or None."""
+        """The value as YAML has it, as far as it is not the default, or None."""
         raise NotImplementedError
 
     def state(self) -> dict[str, Any]:
@@ -218,17 +206,16 @@ class Single(Part):
         super().__init__(name, kind, whole)
         self.default = plain(value, kind)
         self.text: str | bool = self.default if isinstance(self.default, (bool, str)) else repr(self.default)
-        self.constants = {each: found for each, found in constants.items() if self._fits(found)}
+        self.constants = {each: found for each, found in constants.items() if type(found) is type(self.default)}
 
     def value(self) -> Any:
+        """The value, as YAML has it. Raises ValueError, in words, for what the field cannot be."""
         if isinstance(self.text, bool):
             return self.text
         if self.text.strip() in self.constants:
             return self.constants[self.text.strip()]
-        if self.kind.base in FLOATS:
-            return read_float(self.text, self.kind.base)
-        if self.kind.base in WHOLE:
-            return read_integer(self.text, self.kind.base)
+        if self.kind.base in FLOATS | WHOLE:
+            return read_number(self.text, self.kind.base)
         if self.kind.longest and len(self.text) > self.kind.longest:
             raise ValueError(f"at most {self.kind.longest} characters fit here, these are {len(self.text)}")
         return self.text
@@ -260,17 +247,6 @@ class Single(Part):
         options = [[name, str(value)] for name, value in self.constants.items()]
         return {**super().state(), "control": control, "help": hint, "options": options}
 
-    def _fits(self, constant: Any) -> bool:
-        base = self.kind.base
-        if isinstance(constant, bool) or base == "boolean":
-            return False
-        if isinstance(constant, str) or "string" in base:
-            return isinstance(constant, str) and "string" in base
-        if base in FLOATS:
-            return isinstance(constant, float)
-        low, high = integer_bounds(base)
-        return isinstance(constant, int) and low <= constant <= high
-
 
 class Group(Part):
     """The fields of one message. If `is_time`, it is a time that can be filled with the moment of sending."""
@@ -289,9 +265,12 @@ class Group(Part):
         self.now = self.is_time and self.path.endswith("header/stamp")
         message = message_class() if message is None else message
         constants, kinds = constants_of(message_class), kinds_of(message_class)
+        prefixes = {field: f"{field.upper()}_" for field in kinds}
+        # a type does not say which constants belong to which field: their names may
+        anyone = {each: value for each, value in constants.items() if not each.startswith(tuple(prefixes.values()))}
         for field, found in kinds.items():
-            value = getattr(message, field)
-            self.parts.append(make_part(field, found, value, _meant_for(field, kinds, constants), self))
+            own = {each: value for each, value in constants.items() if each.startswith(prefixes[field])}
+            self.parts.append(make_part(field, found, getattr(message, field), own or anyone, self))
 
     def build(self, now: Build) -> Any:
         if self.now:
@@ -300,9 +279,6 @@ class Group(Part):
         for part in self.parts:
             setattr(message, part.name, part.build(now))
         return message
-
-    def value(self) -> dict[str, Any]:
-        return {part.name: part.value() for part in self.parts}
 
     def changed(self) -> Any:
         if self.now:  # a time that is filled in later is left out
@@ -326,9 +302,10 @@ class Rows(Part):
     ) -> None:
         super().__init__(name, kind, whole)
         self._constants = constants
-        for value in values.tolist() if hasattr(values, "tolist") else values:  # numpy's numbers are not Python's
+        for value in values:
             self._append(value)
-        self.default = self.value()
+        self.default = [part.default for part in self.parts if isinstance(part, Single)]
+        self._count = len(self.parts)
 
     def _append(self, value: Any) -> None:
         self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self._constants, self))
@@ -361,14 +338,11 @@ class Rows(Part):
     def build(self, now: Build) -> list[Any]:
         return [row.build(now) for row in self.parts]
 
-    def value(self) -> list[Any]:
-        return [row.value() for row in self.parts]
-
     def changed(self) -> Any:
         if self.kind.is_message:
             values = [row.changed() or {} for row in self.parts]
-            return values if len(values) != len(self.default) or any(values) else None
-        values = self.value()
+            return values if len(values) != self._count or any(values) else None
+        values = [row.value() for row in self.parts if isinstance(row, Single)]
         return None if same(values, self.default) else values
 
     def state(self) -> dict[str, Any]:
@@ -393,16 +367,3 @@ def find_part(whole: Part, path: str) -> Part:
             raise ValueError(f"This form has no field {path!r}.")
         whole = inner[step]
     return whole
-
-
-def _meant_for(field: str, kinds: dict[str, Kind], constants: dict[str, Any]) -> dict[str, Any]:
-    """The constants that a field may be set to. A type does not say which belong to which field: their names may.
-
-    Constants that begin with a field's name (POWER_SUPPLY_STATUS_FULL) are that field's alone.
-    """
-    prefix = {name: f"{name.upper()}_" for name in kinds}
-    own = {name: value for name, value in constants.items() if name.startswith(prefix[field])}
-    if own:
-        return own
-    taken = [each for each in prefix.values() if any(constant.startswith(each) for constant in constants)]
-    return {name: value for name, value in constants.items() if not name.startswith(tuple(taken))}

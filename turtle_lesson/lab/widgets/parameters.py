@@ -18,7 +18,7 @@ from ..graph import node_names
 from ..words import count, did_you_mean, enumerated
 from .backend import DISCOVERY, Backend, in_a_moment
 from .live_widget import LiveWidget
-from .message_fields import read_float, read_integer
+from .message_fields import read_number
 
 SERVICES = {"list": "ListParameters", "describe": "DescribeParameters", "get": "GetParameters", "set": "SetParameters"}
 """What is asked of the node, and the type of each service in rcl_interfaces; its name is /node/<what>_parameters."""
@@ -29,13 +29,15 @@ TYPES = ("not set", "bool", "integer", "double", "string", *ARRAYS)
 """By number of rcl_interfaces/msg/ParameterType."""
 
 NOT_SET, BOOL, INTEGER, DOUBLE, STRING, BYTES, BOOLS, INTEGERS, DOUBLES, STRINGS = range(10)
-ELEMENTS = {
-    BYTES: (int, "whole numbers"),
-    BOOLS: (bool, "true and false"),
-    INTEGERS: (int, "whole numbers"),
-    DOUBLES: (float, "numbers"),
-    STRINGS: (str, "texts"),
+NUMBERS = {INTEGER: "int64", DOUBLE: "double"}
+ELEMENTS: dict[int, tuple[tuple[type, ...], str, str]] = {
+    BYTES: ((int,), "whole numbers", "[1, 2]"),
+    BOOLS: ((bool,), "true and false", "[true, false]"),
+    INTEGERS: ((int,), "whole numbers", "[1, 2]"),
+    DOUBLES: ((float, int), "numbers", "[1.5, 2]"),
+    STRINGS: ((str,), "texts", "[a, b]"),
 }
+"""What a list of each type may hold, in words, and an example."""
 
 
 @dataclass(slots=True)
@@ -325,27 +327,19 @@ def _converted(typed: Any, kind: int) -> Any:
     """What was typed, as a parameter of this type holds it."""
     if kind == BOOL and not isinstance(typed, bool):
         raise ValueError(f"expected true or false, got {typed!r}")
-    if kind == BOOL:
-        return typed
-    if kind == INTEGER:
-        return read_integer(str(typed), "int64")
-    if kind == DOUBLE:
-        return read_float(str(typed), "double")
-    if kind == STRING:
-        return str(typed)
+    if kind in (BOOL, STRING):
+        return typed if kind == BOOL else str(typed)
+    if kind in NUMBERS:
+        return read_number(str(typed), NUMBERS[kind])
     import yaml
 
     from ...ros.runtime.bounded_yaml import safe_load
 
+    elements, words, example = ELEMENTS[kind]
     try:
-        value = safe_load(str(typed))
+        values = safe_load(str(typed))
     except yaml.YAMLError:
-        raise ValueError(f'"{typed}" is not valid YAML: lists are written [1, 2, 3]') from None
-    element, words = ELEMENTS[kind]
-    if not isinstance(value, list):
-        raise ValueError(f"a list of {words} is expected, such as [{'a, b' if element is str else '1, 2'}]")
-    made: list[Any] = [float(each) if element is float and type(each) is int else each for each in value]
-    for each in made:
-        if type(each) is not element:
-            raise ValueError(f"a list of {words} is expected, and {each!r} is none")
-    return [bytes([each]) for each in made] if kind == BYTES else made
+        values = None
+    if not isinstance(values, list) or any(type(each) not in elements for each in values):
+        raise ValueError(f"a list of {words} is expected, such as {example}")
+    return [bytes([each]) for each in values] if kind == BYTES else list(map(elements[0], values))
