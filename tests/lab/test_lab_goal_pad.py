@@ -180,7 +180,7 @@ def test_the_browser_is_told_of_the_newest_goals_and_how_many_there_were_before(
 def test_what_is_no_number_is_no_goal(lesson: Lesson, value: Any) -> None:
     pad = shown(lesson)
     go(pad, value, 8.0)
-    assert pad.words == f"A goal's x must be a number, got {value!r}."
+    assert pad.words == f"The goal's x must be a number, got {value!r}."
     assert pad.goals == []
 
 
@@ -302,7 +302,7 @@ def test_an_impossible_rate_is_refused_in_words(lesson: Lesson, rate: Any) -> No
 def test_a_step_is_short(lesson: Lesson) -> None:
     pad = shown(lesson)
     tell(pad, "step", seconds=3600)
-    assert pad.words == "A step takes from 0 to 1.0 s of robot time, not 3600."
+    assert pad.words == "The step must be a number from 0 to 1, got 3600."
     assert lesson.now == 1.9
 
 

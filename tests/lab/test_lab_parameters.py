@@ -167,7 +167,7 @@ def test_a_node_without_services_for_its_parameters(lesson: Lesson) -> None:
     ("name", "said"),
     [
         ("/navigater", 'Did you mean "/navigator"?'),
-        ("/zzz", "The nodes: /navigator, /obstacle_detector, /status_monitor, /turtlesim."),
+        ("/zzz", "There are: /navigator, /obstacle_detector, /status_monitor, /turtlesim."),
         (None, 'such as "/navigator"'),
     ],
 )

@@ -121,12 +121,12 @@ def test_whoever_listens_for_another_type_is_named(lesson: Lesson) -> None:
 def test_highest_speeds(lesson: Lesson, hand: Any) -> None:
     widget = lesson.teleop()
     order(widget, "limits", forward=0.5)
-    order(widget, "drive", forward=-7.0, turn=0.0)
+    order(widget, "drive", forward=-1.0, turn=0.0)
     assert widget.sent["linear"] == -0.5
     order(widget, "limits", forward=0)
-    assert widget.words == "The highest speed (forward) must be above 0 and at most 10."
+    assert widget.words == "The highest speed (forward) must be a number from 0.01 to 10, got 0."
     order(widget, "limits", sideways=1.0)
-    assert "forward or turn" in widget.words and widget.limits == {"forward": 0.5, "turn": 2.0}
+    assert "forward and turn" in widget.words and widget.limits == {"forward": 0.5, "turn": 2.0}
 
 
 @pytest.mark.parametrize("nonsense", ["fast", None, True, math.nan])

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from . import drawing
 from .path import TOLERANCE, Goal
 from .recording import WORLD
-from .words import did_you_mean, enumerated, listed, number, point
+from .words import listed, number, point, suggestion
 
 if TYPE_CHECKING:
     from .widgets.prediction import PredictionWidget
@@ -228,9 +228,8 @@ def ask(
 def tell(name: str, value: Any) -> Outcome:
     """Say what came of it. Raises ValueError for a name that was never asked, and for a value that the question cannot have."""
     if name not in _questions:
-        hint = did_you_mean(str(name), _questions) or f"Asked were: {enumerated(_questions)}."
         begin = f"no question was asked under the name {name!r}."
-        raise ValueError(f"{begin} {hint} Run the cell with lesson.predict first.")
+        raise ValueError(f"{begin} {suggestion(str(name), _questions)} Run the cell with lesson.predict first.")
     found = _questions[name]
     found.outcome = found.kind.read(value)
     return Outcome(found)

@@ -91,3 +91,21 @@ def shortened(text: str, most: int) -> str:
 def same(one: Any, other: Any) -> bool:
     """Whether two values are equal; not-a-number counts as equal to itself."""
     return bool(one == other or (one != one and other != other))
+
+
+def within(what: str, value: Any, low: float = -math.inf, high: float = math.inf) -> float:
+    """A number that came from a page or a cell. Raises ValueError unless it is a finite one from `low` to `high`."""
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, (int, float))
+        or not (math.isfinite(value) and low <= value <= high)
+    ):
+        span = f" from {low:g} to {high:g}" if math.isfinite(low) else ""
+        raise ValueError(f"The {what} must be a number{span}, got {value!r}.")
+    return float(value)
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """What to try for a name that is not there, of those that are: the one that was perhaps meant, or all of them."""
+    names = list(known)
+    return did_you_mean(name, names) or f"There are: {enumerated(names)}."

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import shlex
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import traitlets
 from rclpy.node import Node
 
 from ...ros.idl.names import is_hidden
-from ..words import count, did_you_mean, enumerated, listed
+from ..words import count, listed, suggestion, within
 from .backend import Backend, LazyClient, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
-from .message_fields import Group, Rows, Single, find_class, find_part
+from .message_fields import Group, Part, Rows, Single, find_class, find_part
 
 if TYPE_CHECKING:
     from rclpy.timer import Timer
@@ -22,6 +22,9 @@ FASTEST = 100.0
 
 LONGEST = 3600.0
 """How long, in s of robot time, a form waits for an answer at most."""
+
+
+SomePart = TypeVar("SomePart", bound=Part)
 
 
 class Form(LiveWidget):
@@ -73,26 +76,23 @@ class Form(LiveWidget):
 
     def do_edit(self, path: str, text: Any) -> None:
         """Put a text (true or false, for a checkbox) into a field."""
-        part = find_part(self._whole, path)
-        if not isinstance(part, Single):
-            raise ValueError(f"{path} is not a single field.")
-        part.set(text)
+        self._part(path, Single, "a single field").set(text)
         self._bring_up_to_date()
 
     def do_add(self, path: str) -> None:
         """Add a row to an array."""
-        self._rows(path).add()
+        self._part(path, Rows, "an array").add()
         self._bring_up_to_date(fields_too=True)
 
     def do_remove(self, path: str, row: int) -> None:
         """Take a row of an array away."""
-        self._rows(path).remove(row)
+        self._part(path, Rows, "an array").remove(row)
         self._bring_up_to_date(fields_too=True)
 
     def do_now(self, path: str, on: bool) -> None:
         """Fill a time with the moment of sending, or not."""
-        part = find_part(self._whole, path)
-        if not isinstance(part, Group) or not part.is_time:
+        part = self._part(path, Group, "a time")
+        if not part.is_time:
             raise ValueError(f"{path} is not a time.")
         part.now = bool(on)
         self._bring_up_to_date(fields_too=True)
@@ -105,17 +105,17 @@ class Form(LiveWidget):
     def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:
         """Set how often to publish (messages a second), how long to wait for an answer (s)."""
         if rate is not None:
-            self.rate = _within("rate", rate, 0.01, FASTEST)
+            self.rate = within("rate", rate, 0.01, FASTEST)
             if self._timer is not None:
                 self._publish_again_and_again()
         if timeout is not None:
-            self.timeout = _within("waiting time", timeout, 0.1, LONGEST)
+            self.timeout = within("waiting time", timeout, 0.1, LONGEST)
         self._bring_up_to_date()
 
-    def _rows(self, path: str) -> Rows:
+    def _part(self, path: str, kind: type[SomePart], what: str) -> SomePart:
         part = find_part(self._whole, path)
-        if not isinstance(part, Rows):
-            raise ValueError(f"{path} is not an array.")
+        if not isinstance(part, kind):
+            raise ValueError(f"{path} is not {what}.")
         return part
 
     def do_publish(self) -> None:
@@ -220,17 +220,13 @@ def _look_up(node: Node, name: str) -> tuple[str, str, str]:
     """Full name, "topic" or "service", and type. Raises ValueError with what was meant perhaps."""
     if not isinstance(name, str) or not name:
         raise ValueError(f'a form is for a topic or a service such as "/turtle1/cmd_vel", got {name!r}')
-    topics, services = dict(node.get_topic_names_and_types()), dict(node.get_service_names_and_types())
     full = name if name.startswith("/") else f"{node.get_namespace().rstrip('/')}/{name}"
-    for kind, known in (("topic", topics), ("service", services)):
+    there = {"topic": dict(node.get_topic_names_and_types()), "service": dict(node.get_service_names_and_types())}
+    for kind, known in there.items():
         if full in known:
             return full, kind, known[full][0]
-    known_names = sorted(each for each in (*topics, *services) if not is_hidden(each))
-    hint = did_you_mean(name, known_names)
-    if not hint:
-        usual = [each for each in known_names if "parameter" not in each]
-        hint = f"There are: {enumerated(usual)}." if usual else "There are no topics and services yet."
-    raise ValueError(f'there is no topic or service called "{name}" now. {hint}')
+    names = {each for known in there.values() for each in known if "parameter" not in each and not is_hidden(each)}
+    raise ValueError(f'there is no topic or service called "{name}" now. {suggestion(name, sorted(names))}')
 
 
 def _error_of(single: Single) -> str:
@@ -239,12 +235,6 @@ def _error_of(single: Single) -> str:
     except ValueError as error:
         return str(error)
     return ""
-
-
-def _within(what: str, value: Any, low: float, high: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
-        raise ValueError(f"The {what} must be a number from {low:g} to {high:g}, got {value!r}.")
-    return float(value)
 
 
 def publish_line(topic: str, type_name: str, values: dict[str, Any], rate: float | None) -> str:
@@ -257,11 +247,9 @@ def _yaml(values: dict[str, Any]) -> str:
     """Values as one word of a shell: in double quotes as in ROS's own examples, unless a sign there has a meaning."""
     import yaml
 
-    def dumped(allow_unicode: bool) -> str:
+    for allow_unicode in (True, False):  # some rare signs, such as U+0085, come back as blanks if they are not escaped
         options: dict[str, Any] = {"default_flow_style": True, "width": float("inf"), "sort_keys": False}
-        return yaml.safe_dump(values, allow_unicode=allow_unicode, **options).strip()
-
-    text = dumped(allow_unicode=True)
-    if yaml.safe_load(text) != values:  # some rare signs, such as U+0085, come back as blanks if they are not escaped
-        text = dumped(allow_unicode=False)
+        text = yaml.safe_dump(values, allow_unicode=allow_unicode, **options).strip()
+        if yaml.safe_load(text) == values:
+            break
     return shlex.quote(text) if set(text) & set('"$`\\!') else f'"{text}"'

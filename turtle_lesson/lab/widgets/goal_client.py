@@ -15,6 +15,7 @@ from rclpy.subscription import Subscription
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..graph import owner, servers
+from ..words import within
 from .backend import DISCOVERY, Backend
 
 SERVICE = "/navigate_to"
@@ -94,10 +95,8 @@ class GoalClient:
 
     def send(self, x: float, y: float, theta: float) -> Goal:
         """Ask the navigator to drive there. Raises ValueError for what is no number."""
-        for name, value in (("x", x), ("y", y), ("heading", theta)):
-            if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-                raise ValueError(f"A goal's {name} must be a number, got {value!r}.")
-        goal = Goal(len(self.goals) + 1, float(x), float(y), float(theta), self._backend.now)
+        place = [within(f"goal's {name}", value) for name, value in (("x", x), ("y", y), ("heading", theta))]
+        goal = Goal(len(self.goals) + 1, *place, self._backend.now)
         if pose := self._backend.recorder.pose():
             goal.away = math.dist((goal.x, goal.y), pose[:2])
         self.goals.append(goal)

@@ -13,7 +13,7 @@ import traitlets
 from ...turtlesim.obstacles import WORLDS, Box, Circle
 from ..drawing import Picture
 from ..path import Trail, plot_path
-from ..words import angle, count, listed, number, point
+from ..words import angle, count, listed, number, point, within
 from .backend import Backend, let_time_go_on
 from .goal_client import Goal, GoalClient
 from .live_widget import LiveWidget, pack
@@ -206,10 +206,9 @@ class GoalPad(LiveWidget):
 
     def do_step(self, seconds: float) -> None:
         """Let a little robot time pass."""
-        if not isinstance(seconds, int | float) or not 0 < seconds <= LONGEST_STEP:
-            raise ValueError(f"A step takes from 0 to {LONGEST_STEP} s of robot time, not {seconds!r}.")
+        lasts = within("step", seconds, 0, LONGEST_STEP)
         if self.backend.clock is not None:
-            self.backend.clock.step(float(seconds))
+            self.backend.clock.step(lasts)
 
     # -- editor ------------------------------------------------------------------------------------------------------
 

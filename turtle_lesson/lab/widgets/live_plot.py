@@ -17,10 +17,10 @@ from ..drawing import Picture
 from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status_and_scan import label_beside, spread
-from ..words import count, did_you_mean, enumerated, number
+from ..words import count, enumerated, number, suggestion, within
 from .backend import Backend
 from .live_widget import LiveWidget, pack
-from .message_fields import find_class, kinds_of
+from .message_fields import Kind, find_class, kinds_of
 
 if TYPE_CHECKING:
     from rclpy.timer import Timer
@@ -63,8 +63,7 @@ class Curve:
             return
         self.type_name = topics[self.topic][0]
         self.path = rest.lstrip("/.").replace(".", "/")
-        message_class = find_class(self.type_name)
-        steps = check_steps(message_class, steps_of(rest), self)
+        steps = steps_to_number(self.topic, self.type_name, rest)
         self.path = self.path or str(steps[0])
         self.read = reader(steps)
         self.problem = ""
@@ -82,74 +81,50 @@ def split(asked: str, topics: Iterable[str]) -> tuple[str, str]:
     return "", ""
 
 
-def steps_of(rest: str) -> list[Step]:
-    """ "/linear/x" is ["linear", "x"], "/ranges[90]" is ["ranges", 90]. Raises ValueError for anything else."""
+def steps_to_number(topic: str, type_name: str, rest: str) -> list[Step]:
+    """The steps to a number in a topic's messages: for "/linear/x" ["linear", "x"], for "/ranges[90]" ["ranges", 90].
+
+    Without any, a message whose one field is a number (std_msgs/Float64) stands for it. Raises ValueError where they lead
+    to no number, with what to try.
+    """
     if _STEP.sub("", rest):
         raise ValueError(f'"{rest}" is not a path to a field: try /linear/x or /ranges[90]')
-    return [name or int(index) for name, index in _STEP.findall(rest)]
-
-
-def check_steps(message_class: Any, steps: list[Step], curve: Curve) -> list[Step]:
-    """The steps to a number in messages of this class. Raises ValueError where they lead to none.
-
-    Without any, a message whose one field is a number (std_msgs/Float64) stands for that number.
-    """
-    where, kinds = curve.type_name, kinds_of(message_class)
-    if not steps:
-        only = [name for name, kind in kinds.items() if kind.is_number]
-        if len(kinds) == 1 and only:
-            return [*only]
-        raise ValueError(f"say which field of {curve.topic} to draw: {enumerated(_ways(curve.topic, kinds))}")
-    walked = curve.topic
-    pending = list(steps)
-    while True:
-        name = pending.pop(0)
-        if not isinstance(name, str) or name not in kinds:
-            hint = did_you_mean(str(name), kinds)
-            fields = f"Its fields: {enumerated(kinds)}."
-            raise ValueError(" ".join(filter(None, (f'{where} has no field "{name}".', hint, fields))))
-        kind, walked = kinds[name], f"{walked}/{name}"
-        if kind.array:
-            kind, walked = _element(kind, pending, walked)
-        if kind.is_message and pending:
-            where, kinds = kind.base, kinds_of(find_class(kind.base))
-            continue
-        if kind.is_message:
-            ways = _ways(walked, kinds_of(find_class(kind.base)))
-            raise ValueError(f"{walked} is not a number but a {kind.base}: try {enumerated(ways)}")
-        if not kind.is_number:
-            raise ValueError(f"{walked} is not a number but a {kind}, which cannot be drawn as a curve")
-        if pending:
+    steps: list[Step] = [name or int(index) for name, index in _STEP.findall(rest)]
+    kind, fields, walked = Kind(type_name), kinds_of(find_class(type_name)), topic
+    if not steps and len(fields) == 1:
+        steps = [*fields]
+    for step in steps:
+        if kind.array and isinstance(step, int):
+            if kind.size and step >= kind.size:
+                raise ValueError(f"{walked} has elements 0 to {kind.size - 1}, so there is no [{step}]")
+            kind, walked = kind.element, f"{walked}[{step}]"
+        elif kind.is_message and not kind.array:
+            if step not in fields:
+                raise ValueError(f'{kind.base} has no field "{step}". {suggestion(str(step), fields)}')
+            kind, walked = fields[str(step)], f"{walked}/{step}"
+        elif kind.is_number:
             raise ValueError(f"{walked} is a {kind}, a number without fields: leave out the rest")
-        return steps
-
-
-def _element(kind: Any, pending: list[Step], walked: str) -> tuple[Any, str]:
-    if not pending or not isinstance(pending[0], int):
+        fields = kinds_of(find_class(kind.base)) if kind.is_message else {}
+    if kind.array:
         raise ValueError(f"{walked} is an array ({kind}): say which element, such as {walked}[0]")
-    index = pending.pop(0)
-    if kind.array in ("fixed", "bounded") and int(index) >= kind.size:
-        raise ValueError(f"{walked} has elements 0 to {kind.size - 1}, so there is no [{index}]")
-    return kind.element, f"{walked}[{index}]"
-
-
-def _ways(start: str, kinds: Mapping[str, Any]) -> list[str]:
-    """What may be tried below a topic or a field: its numbers first."""
-    numbers = [name for name, kind in kinds.items() if kind.is_number]
-    return [f"{start}/{name}" for name in numbers or kinds]
+    if not kind.is_number:
+        numbers = [name for name, each in fields.items() if each.is_number]
+        ways = enumerated(f"{walked}/{name}" for name in numbers or fields)
+        hint = f": try {ways}" if fields else ", which cannot be drawn as a curve"
+        raise ValueError(f"{walked} is not a number but a {kind}{hint}")
+    return steps
 
 
 def reader(steps: list[Step]) -> Callable[[Any], float]:
     """A function from a message to the number at the end of the steps; not-a-number where an array is too short."""
 
     def read(message: Any) -> float:
-        found = message
         try:
             for step in steps:
-                found = found[step] if isinstance(step, int) else getattr(found, step)
+                message = message[step] if isinstance(step, int) else getattr(message, step)
         except IndexError:
             return float("nan")
-        return float(found[0] if isinstance(found, bytes) else found)
+        return float(message[0] if isinstance(message, bytes) else message)
 
     return read
 
@@ -161,14 +136,11 @@ def mistyped(asked: str, topics: Iterable[str], to_come: Iterable[str]) -> str:
     """
     if split(asked, to_come)[0]:
         return ""
-    parts = re.split(r"[/.\[]", asked)
-    known = list(topics)
-    for length in range(len(parts), 1, -1):
-        begin = "/".join(parts[:length])
-        meant = nearest(begin, [each for each in known if each.count("/") == begin.count("/")], SLIP)
-        if meant:
-            without_digits, begin_without = (re.sub(r"\d+", "#", name) for name in (meant, begin))
-            return "" if without_digits == begin_without else meant
+    names = re.split(r"[/.\[]", asked)
+    for topic in topics:
+        begin = "/".join(names[: topic.count("/") + 1])
+        if nearest(begin, [topic], SLIP) and re.sub(r"\d+", "#", begin) != re.sub(r"\d+", "#", topic):
+            return topic
     return ""
 
 
@@ -205,8 +177,7 @@ class LivePlot(LiveWidget):
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
         self._channels: dict[str, Channel] = {}
         self._timer: Timer | None = None
-        if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0.1 <= seconds <= 3600:
-            raise ValueError(f"seconds must be a number of seconds from 0.1 to 3600, got {seconds!r}: try seconds=30.0")
+        within("seconds of a live plot", seconds, 0.1, 3600)
         topics, recorder = dict(backend.node.get_topic_names_and_types()), backend.recorder
         to_come = {STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC, recorder.pose_topic, recorder.command_topic}
         visible = [name for name in topics if not is_hidden(name)]
@@ -337,9 +308,8 @@ def thinned(times: np.ndarray, values: np.ndarray, width: float) -> tuple[np.nda
 
 def figure(value: float) -> str:
     """A number of any size, in five digits at most: "5.54", "0.0012", "1.2e+09"."""
-    if not math.isfinite(value) or value == 0:
-        return number(value)
-    return number(value) if 0.1 <= abs(value) < 1e5 else f"{value:.3g}"
+    fits = not math.isfinite(value) or value == 0 or 0.1 <= abs(value) < 1e5
+    return number(value) if fits else f"{value:.3g}"
 
 
 def _checked(node: Node, fields: Iterable[str]) -> list[str]:
@@ -392,16 +362,10 @@ def draw(text: str, windows: list[Window], now: float, seconds: float) -> Pictur
         low, high = every.min(), every.max()
         spare = 0.08 * (high - low) or max(0.5, 0.05 * abs(high))
         axes.set_ylim(low - spare, high + spare)
-        _label(axes, windows)
+        shown = [(index, *window) for index, window in enumerate(windows) if len(window[1])]
+        places = spread([float(values[-1]) for *_, values in shown], 0.085 * (high - low + 2 * spare))
+        for (index, name, _, values), place in zip(shown, places, strict=True):
+            short = name if len(name) <= LONGEST_NAME else f"…{name[1 - LONGEST_NAME :]}"
+            words = f"{short}  {number(float(values[-1]))}"
+            label_beside(axes, words, place, 8, color=COLOURS[index], fontsize=8.5, fontweight="bold")
     return Picture(text, figure)
-
-
-def _label(axes: Any, windows: list[Window]) -> None:
-    """Write its name and its last number at the right end of each curve."""
-    shown = [(index, *window) for index, window in enumerate(windows) if len(window[1])]
-    low, high = axes.get_ylim()
-    places = spread([float(values[-1]) for *_, values in shown], 0.085 * (high - low))
-    for (index, name, _, values), place in zip(shown, places, strict=True):
-        short = name if len(name) <= LONGEST_NAME else f"…{name[1 - LONGEST_NAME :]}"
-        text = f"{short}  {number(float(values[-1]))}"
-        label_beside(axes, text, place, 8, color=COLOURS[index], fontsize=8.5, fontweight="bold")

@@ -15,7 +15,7 @@ from rclpy.task import Future
 
 from ...ros.idl.names import is_hidden
 from ..graph import node_names
-from ..words import count, did_you_mean, enumerated
+from ..words import count, enumerated, suggestion
 from .backend import DISCOVERY, Backend, in_a_moment
 from .live_widget import LiveWidget
 from .message_fields import read_number
@@ -289,8 +289,7 @@ def _look_up(node: Node, name: str) -> str:
     if full in names:
         return full
     visible = sorted({each for each in names if not is_hidden(each)})
-    hint = did_you_mean(full, visible) or f"The nodes: {enumerated(visible)}."
-    raise ValueError(f'there is no node called "{name}" now. {hint}')
+    raise ValueError(f'there is no node called "{name}" now. {suggestion(full, visible)}')
 
 
 # -- values --------------------------------------------------------------------------------------------------------------

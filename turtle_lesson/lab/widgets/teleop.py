@@ -10,7 +10,7 @@ import traitlets
 from geometry_msgs.msg import Twist
 
 from ...ros.stdlib.clocks import real_monotonic
-from ..words import number
+from ..words import number, within
 from .backend import Backend, LazyPublisher, let_time_go_on
 from .live_widget import LiveWidget
 
@@ -24,7 +24,7 @@ PERIOD = 0.1
 SIGN_OF_LIFE = 0.3
 """Seconds of real time after which a stick that says nothing counts as let go: the dead man's switch."""
 
-FASTEST = {"forward": 10.0, "turn": 10.0}
+FASTEST = 10.0
 """What the highest speeds can be set to, m/s and rad/s."""
 
 
@@ -67,7 +67,7 @@ class Teleop(LiveWidget):
 
     def do_drive(self, forward: float, turn: float) -> None:
         """The stick is held, and is here: both from -1 to 1, turning to the left positive."""
-        place = {"forward": _unit("forward", forward), "turn": _unit("turn", turn)}
+        place = {"forward": within("stick's forward", forward, -1, 1), "turn": within("stick's turn", turn, -1, 1)}
         self._last_sign = real_monotonic()
         changed = place != {name: self.stick[name] for name in place}
         begun = self._timer is None
@@ -102,11 +102,9 @@ class Teleop(LiveWidget):
     def do_limits(self, **speeds: float) -> None:
         """Set the highest speeds: forward (m/s), turn (rad/s)."""
         for name, value in speeds.items():
-            if name not in FASTEST or isinstance(value, bool) or not isinstance(value, (int, float)):
-                raise ValueError(f"A highest speed is a number, forward or turn, got {name}={value!r}.")
-            if not 0 < value <= FASTEST[name]:
-                raise ValueError(f"The highest speed ({name}) must be above 0 and at most {FASTEST[name]:g}.")
-            self.limits = {**self.limits, name: float(value)}
+            if name not in self.limits:
+                raise ValueError(f"A highest speed is one of forward and turn, got {name}.")
+            self.limits = {**self.limits, name: within(f"highest speed ({name})", value, 0.01, FASTEST)}
 
     def tick(self) -> None:
         self._watch()
@@ -160,9 +158,3 @@ def in_words(linear: float, angular: float) -> str:
     along = f"{number(abs(linear))} m/s {'forward' if linear > 0 else 'backward'}" if linear else ""
     around = f"{number(abs(angular))} rad/s to the {'left' if angular > 0 else 'right'}" if angular else ""
     return " and ".join(filter(None, (along, around)))
-
-
-def _unit(name: str, value: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise ValueError(f"The stick's {name} must be a number from -1 to 1, got {value!r}.")
-    return max(-1.0, min(1.0, float(value)))
