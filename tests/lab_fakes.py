@@ -6,7 +6,8 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from turtle_lesson.lab.recording import Obstacle, Recording
+from turtle_lesson.lab.recording import Recording
+from turtle_lesson.turtlesim.obstacles import Obstacle
 
 START = 1_800_000_000_000_000_000
 """The virtual wall clock at a lesson's start, in ns."""

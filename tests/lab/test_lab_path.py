@@ -8,7 +8,7 @@ from lab_fakes import SECOND, START, TICK, drive, recording, stand
 
 from turtle_lesson.lab.drawing import turtle_points
 from turtle_lesson.lab.path import LABEL, WORLD, Goal, distance_driven, find_jumps, goal_points, plot_path
-from turtle_lesson.lab.recording import Obstacle
+from turtle_lesson.turtlesim.obstacles import Box, Circle
 
 
 def test_a_straight_drive():
@@ -78,7 +78,7 @@ def test_what_is_no_goal_is_refused_with_an_example(goal):
 
 
 def test_obstacles_are_named():
-    pillar, wall = Obstacle("circle", 8.5, 5.5, 0.8, 0.8), Obstacle("box", 3.0, 2.5, 2.0, 0.5, 0.3)
+    pillar, wall = Circle(8.5, 5.5, 0.4), Box(3.0, 2.5, 2.0, 0.5, 0.3)
     text = plot_path(stand(drive(recording()), pillar, wall)).text
     assert text.endswith("2 obstacles in the world: circle at (8.50, 5.50) m, box at (3.00, 2.50) m.")
 

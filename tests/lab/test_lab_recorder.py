@@ -8,11 +8,11 @@ import pytest
 
 from turtle_lesson.lab.path import plot_path
 from turtle_lesson.lab.recorder import Recorder, with_time
-from turtle_lesson.lab.recording import Obstacle
 from turtle_lesson.lab.status_and_scan import plot_scan, plot_status
 from turtle_lesson.ros.idl.registry import registry
 from turtle_lesson.ros.runtime.world import World, open_world
 from turtle_lesson.ros.sim.simulation import EPOCH
+from turtle_lesson.turtlesim.obstacles import Box, Circle
 
 # isort: split
 # Importing turtle_lesson made these packages importable.
@@ -240,11 +240,9 @@ def test_obstacles_are_the_newest_that_were_published_even_before(bench):
 
     bench.start("world", build)
     bench.run(1.0)
-    quarter = pytest.approx(1.5707963)
-    assert list(bench.recorder.obstacles.values()) == [
-        Obstacle("circle", 1.0, 0.0, 0.5, 1.0, 0.0),
-        Obstacle("box", 2.0, 0.0, 0.5, 1.0, quarter),
-    ]
+    round_one, box_one = bench.recorder.obstacles.values()
+    assert round_one == Circle(1.0, 0.0, 0.375)
+    assert box_one == Box(2.0, 0.0, 0.5, 1.0, box_one.angle) and box_one.angle == pytest.approx(1.5707963)
     publishers[0].publish(MarkerArray(markers=then))
     bench.run(1.0)
     assert [each.shape for each in bench.recorder.obstacles.values()] == ["box", "circle"]

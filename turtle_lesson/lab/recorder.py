@@ -11,6 +11,7 @@ import importlib
 import importlib.util
 import math
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -21,7 +22,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 from rclpy.time import Time
 
-from ..turtlesim.obstacles import WORLDS, Box, Circle, to_marker_array
+from ..turtlesim.obstacles import WORLDS, Box, Circle, Obstacle, to_marker_array
 from .graph import others, owner
 from .recording import (
     NANOSECONDS,
@@ -31,7 +32,6 @@ from .recording import (
     STATUS_TYPE,
     WORLD,
     Listener,
-    Obstacle,
     Recording,
 )
 from .words import listed
@@ -276,8 +276,7 @@ Obstacles = dict[tuple[str, int], Obstacle]
 def apply(message: Any, obstacles: Obstacles) -> None:
     """Bring `obstacles` up to date with a MarkerArray: markers add, change and delete, one after the other.
 
-    Shapes that no turtle could run into (text, arrows, …) are
-    left out.
+    Shapes that no turtle could run into (text, arrows, …) are left out.
     """
     for marker in message.markers:
         key = (marker.ns, marker.id)
@@ -287,9 +286,12 @@ def apply(message: Any, obstacles: Obstacles) -> None:
             obstacles.pop(key, None)
         elif marker.type in (CUBE, SPHERE, CYLINDER):
             place, size, turn = marker.pose.position, marker.scale, marker.pose.orientation
-            shape = "box" if marker.type == CUBE else "circle"
             yaw = math.atan2(2 * (turn.w * turn.z + turn.x * turn.y), 1 - 2 * (turn.y * turn.y + turn.z * turn.z))
-            obstacles[key] = Obstacle(shape, place.x, place.y, size.x, size.y, yaw)
+            with suppress(ValueError):  # one without a size
+                if marker.type == CUBE:
+                    obstacles[key] = Box(place.x, place.y, size.x, size.y, yaw)
+                else:  # an oval becomes the circle of the same mean radius
+                    obstacles[key] = Circle(place.x, place.y, (size.x + size.y) / 4)
 
 
 class ObstacleBoard:
@@ -304,12 +306,12 @@ class ObstacleBoard:
         self._recorder = recorder
         self._now = now or (lambda: recorder.node.get_clock().now().nanoseconds)
         self._publisher: Publisher | None = None
-        self._put: tuple[Circle | Box, ...] = ()
+        self._put: tuple[Obstacle, ...] = ()
         self._expected: Obstacles = {}
         self._deadline: float | None = None
 
     @property
-    def obstacles(self) -> tuple[Circle | Box, ...]:
+    def obstacles(self) -> tuple[Obstacle, ...]:
         """The obstacles in the world."""
         heard = self._recorder.obstacles
         if heard == self._expected:
@@ -317,9 +319,9 @@ class ObstacleBoard:
             return self._put
         if self._deadline is not None and self._now() < self._deadline:
             return self._put
-        return tuple(map(_heard, heard.values()))
+        return tuple(heard.values())
 
-    def put(self, obstacles: Iterable[Circle | Box] | str) -> None:
+    def put(self, obstacles: Iterable[Obstacle] | str) -> None:
         """Replace all obstacles, by others or by the name of a ready-made world, and publish them.
 
         Raises ValueError for a world that there is not, TypeError for what is no obstacle.
@@ -344,11 +346,3 @@ class ObstacleBoard:
             latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             self._publisher = self._recorder.node.create_publisher(MarkerArray, OBSTACLE_TOPIC, latched)
         self._publisher.publish(message)
-
-
-def _heard(obstacle: Obstacle) -> Circle | Box:
-    """An obstacle that another node has published. An oval becomes the circle of the same mean radius."""
-    x, y, width, height = obstacle.x, obstacle.y, obstacle.width, obstacle.height
-    if obstacle.shape == "box":
-        return Box(x, y, width, height, obstacle.angle)
-    return Circle(x, y, (width + height) / 4)

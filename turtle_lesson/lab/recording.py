@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from numbers import Real
 from operator import attrgetter
@@ -15,6 +14,8 @@ from .words import number
 
 if TYPE_CHECKING:
     import numpy as np
+
+    from ..turtlesim.obstacles import Obstacle
 
 WORLD = 11.088889
 """Side of turtlesim's square world in metres: 499 pixels at its 45 pixels a metre."""
@@ -125,18 +126,6 @@ OBSTACLE_TOPIC = "/world/obstacles"
 
 UNDER_WAY = 1_000_000
 """Nanoseconds that a message takes at most here. A pose sent later than this before a scan was not known to its scanner."""
-
-
-@dataclass(frozen=True, slots=True)
-class Obstacle:
-    """A thing in the world seen from above: "circle" or "box", middle and size in metres, turn in radians."""
-
-    shape: str
-    x: float
-    y: float
-    width: float
-    height: float
-    angle: float = 0.0
 
 
 class Recording:

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from numbers import Real
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 if TYPE_CHECKING:
     from visualization_msgs.msg import Marker, MarkerArray
@@ -47,6 +47,16 @@ class Circle:
     y: float
     radius: float
 
+    shape: ClassVar = "circle"
+    angle: ClassVar = 0.0
+
+    @property
+    def width(self) -> float:
+        """From side to side, m; `height` is the same."""
+        return 2 * self.radius
+
+    height = width
+
     def __post_init__(self) -> None:
         _check_numbers(self, positive=("radius",))
 
@@ -66,6 +76,8 @@ class Box:
     width: float
     height: float
     angle: float = 0.0
+
+    shape: ClassVar = "box"
 
     def __post_init__(self) -> None:
         _check_numbers(self, positive=("width", "height"))

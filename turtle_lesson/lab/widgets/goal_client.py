@@ -95,8 +95,8 @@ class GoalClient:
 
     def send(self, x: float, y: float, theta: float) -> Goal:
         """Ask the navigator to drive there. Raises ValueError for what is no number."""
-        place = [within(f"goal's {name}", value) for name, value in (("x", x), ("y", y), ("heading", theta))]
-        goal = Goal(len(self.goals) + 1, *place, self._backend.now)
+        x, y, theta = within("goal's x", x), within("goal's y", y), within("goal's heading", theta)
+        goal = Goal(len(self.goals) + 1, x, y, theta, self._backend.now)
         if pose := self._backend.recorder.pose():
             goal.away = math.dist((goal.x, goal.y), pose[:2])
         self.goals.append(goal)

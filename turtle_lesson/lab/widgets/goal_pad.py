@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 import traitlets
 
-from ...turtlesim.obstacles import WORLDS, Box, Circle
+from ...turtlesim.obstacles import WORLDS, Box, Circle, Obstacle
 from ..drawing import Picture
 from ..path import Trail, plot_path
 from ..words import angle, count, listed, number, point, within
@@ -50,8 +50,6 @@ ROOM = 0.8
 """A fresh obstacle leaves so much room around it where it can, m."""
 
 MIDDLE = 5.5
-
-Obstacle = Circle | Box
 
 
 class GoalPad(LiveWidget):
@@ -306,7 +304,4 @@ def _ending(goal: Goal) -> str:
 
 def as_state(obstacle: Obstacle) -> dict[str, Any]:
     """What the browser is told of an obstacle."""
-    place = {"x": obstacle.x, "y": obstacle.y}
-    if isinstance(obstacle, Box):
-        return {"shape": "box", **place, "width": obstacle.width, "height": obstacle.height, "angle": obstacle.angle}
-    return {"shape": "circle", **place, "width": 2 * obstacle.radius, "height": 2 * obstacle.radius, "angle": 0.0}
+    return {name: getattr(obstacle, name) for name in ("shape", "x", "y", "width", "height", "angle")}

@@ -1,98 +1,92 @@
 """The scene in meshcat's own commands, as bytes: what its viewer draws, wherever the bytes come from.
 
-A view of a widget gets them over the notebook's channel, a saved page has them inside. meshcat's server is not used: it
-listens on a port for everyone, and no proxy lets it through.
+A view of a widget gets them over the notebook's channel, a saved page has them inside. meshcat's Python package is not
+imported: its server listens on a port for everyone, and no proxy lets it through. The commands are those of its
+commands.py and geometry.py; objects are written as three.js' ObjectLoader reads them.
 """
 
 from __future__ import annotations
 
 import gzip
-import warnings
 from collections.abc import Iterable, Sequence
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import umsgpack
 
-from ...ros.sim.defer_sigint import defer_sigint
-from ..recording import WORLD, Obstacle
+from ...turtlesim.obstacles import Circle, Obstacle
+from ..recording import WORLD
 from ..status_and_scan import read_beams
 from . import scene_mesh
 from .goal_client import Goal
 from .scene_mesh import Mesh, placed
 
-# meshcat imports its server, which is never started here, and that a module of pyzmq that warns of its own age
-with defer_sigint(), warnings.catch_warnings():
-    warnings.simplefilter("ignore", DeprecationWarning)
-    import meshcat
-    from meshcat import geometry
-    from meshcat.commands import Delete, SetObject, SetProperty, SetTransform
-    from meshcat.path import Path as ScenePath
-
-VIEWER = Path(meshcat.__file__).with_name("viewer") / "dist"
+FLOATS = 0x17
+"""The type, in the viewer's msgpack, of an array of floats of 32 bits."""
 
 
 @cache
 def viewer_bundle() -> bytes:
     """meshcat's viewer for the browser, one script with its licences, compressed by gzip to a quarter: 217 kB."""
-    licences = (VIEWER / "main.min.js.LICENSE.txt").read_text(encoding="utf-8")
-    notice = (VIEWER.parent / "LICENSE").read_text(encoding="utf-8").replace("*/", "* /")
-    script = (VIEWER / "main.min.js").read_text(encoding="utf-8")
+    package = find_spec("meshcat")
+    assert package is not None and package.origin is not None
+    viewer = Path(package.origin).with_name("viewer")
+    licences = (viewer / "dist" / "main.min.js.LICENSE.txt").read_text(encoding="utf-8")
+    notice = (viewer / "LICENSE").read_text(encoding="utf-8").replace("*/", "* /")
+    script = (viewer / "dist" / "main.min.js").read_text(encoding="utf-8")
     return gzip.compress(f"/*! meshcat\n{notice}*/\n{licences}\n{script}".encode(), 9, mtime=0)
 
 
-def packed(command: Any) -> bytes:
-    """One command, in the form that the viewer reads."""
-    return umsgpack.packb(command.lower())
+def packed(kind: str, path: str, **content: Any) -> bytes:
+    """One command about what is at a path such as "lab/turtle/body", in the form that the viewer reads."""
+    return umsgpack.packb({"type": kind, "path": f"/{path}", **content})
 
 
 def show(path: str, mesh: Mesh, lit: bool = True, **look: Any) -> bytes:
-    """Show a mesh at a path such as "lab/turtle/body", in the colours of its triangles.
+    """Show a mesh in the colours of its triangles.
 
     `look` says how three.js draws it: `opacity=0.3`, `depthWrite=False`, … With `color=0x0072b2` it has that one colour.
     What is not `lit` looks the same in light and shade.
     """
-    colours = None if "color" in look else np.round(np.repeat(mesh.colours, 3, axis=0), 4)
-    corners = np.round(mesh.corners.reshape(-1, 3), 4)
-    shape = geometry.TriangularMeshGeometry(corners, np.arange(len(corners)).reshape(-1, 3), colours)
-    material = geometry.MeshLambertMaterial if lit else geometry.MeshBasicMaterial
-    return _show(path, shape, material(vertexColors=colours is not None, **look))
+    shape = _points(mesh.corners)
+    if "color" not in look:
+        shape["data"]["attributes"]["color"] = _array(np.repeat(mesh.colours, 3, axis=0))
+        look["vertexColors"] = 2
+    return _show(path, shape, {"type": "MeshLambertMaterial" if lit else "MeshBasicMaterial", **look})
 
 
-def _show(path: str, shape: Any, material: Any, kind: Any = geometry.Mesh) -> bytes:
-    return umsgpack.packb(_shown(path, shape, material, kind))
+def _points(points: np.ndarray) -> dict[str, Any]:
+    return {"type": "BufferGeometry", "data": {"attributes": {"position": _array(points)}}}
 
 
-def _shown(path: str, shape: Any, material: Any, kind: Any) -> Any:
-    thing = kind(shape, material)
-    # meshcat's own names are made of the time: with these, the same scene is the same bytes
-    shape.uuid, material.uuid, thing.uuid = f"{path}#shape", f"{path}#material", path
-    return SetObject(thing, path=_path(path)).lower()
+def _array(rows: np.ndarray) -> dict[str, Any]:
+    numbers = np.round(rows, 4).astype("<f4").tobytes()
+    return {"itemSize": 3, "type": "Float32Array", "array": umsgpack.Ext(FLOATS, numbers), "normalized": False}
+
+
+def _show(path: str, shape: dict[str, Any], material: dict[str, Any], kind: str = "Mesh") -> bytes:
+    shape, material = {"uuid": f"{path}#shape", **shape}, {"uuid": f"{path}#material", "side": 2, **material}
+    material["transparent"] = "opacity" in material
+    thing = {"uuid": path, "type": kind, "geometry": shape["uuid"], "material": material["uuid"]}
+    return packed("set_object", path, object={"object": thing, "geometries": [shape], "materials": [material]})
 
 
 def put(path: str, matrix: np.ndarray) -> bytes:
     """Say where something is, by a 4 by 4 matrix."""
-    numbers = np.empty(16, [("kind", "u1"), ("number", ">f8")])  # as msgpack has floats of 64 bits
-    numbers["kind"], numbers["number"] = 0xCB, np.round(matrix, 5).T.ravel()
-    return _put_head(path) + numbers.tobytes()
-
-
-@cache
-def _put_head(path: str) -> bytes:
-    """The command without its 16 numbers, of 9 bytes each: for the turtle this is asked for at each frame."""
-    return packed(SetTransform(np.eye(4), _path(path)))[: -16 * 9]
+    return packed("set_transform", path, matrix=np.round(matrix, 5).T.ravel().tolist())
 
 
 def remove(path: str) -> bytes:
     """Take something away."""
-    return packed(Delete(_path(path)))
+    return packed("delete", path)
 
 
 def tell(path: str, name: str, value: Any) -> bytes:
     """Set a property of what is at a path."""
-    return packed(_SetNamed(name, value, _path(path)))
+    return packed("set_property", path, property=name, value=value)
 
 
 @cache
@@ -113,18 +107,7 @@ def light(path: str, intensity: float, position: Iterable[float], reach: float =
     }
     lamp = {"type": "DirectionalLight", "uuid": path, "color": 0xFFFFFF, "intensity": intensity}
     data = {"object": {**lamp, "matrix": matrix, "shadow": shadow}, "geometries": [], "materials": []}
-    return umsgpack.packb({"type": "set_object", "path": _path(path).lower(), "object": data})
-
-
-def _path(path: str) -> ScenePath:
-    return ScenePath(tuple(path.split("/")))
-
-
-class _SetNamed(SetProperty):
-    """meshcat writes a property's name in small letters, but three.js has names such as castShadow."""
-
-    def lower(self) -> dict[str, Any]:
-        return {"type": "set_property", "path": self.path.lower(), "property": self.key, "value": self.value}
+    return packed("set_object", path, object=data)
 
 
 # -- scene parts ----------------------------------------------------------------------------------------------------
@@ -180,56 +163,31 @@ def _flat(path: str, mesh: Mesh, colour: str, **look: Any) -> list[bytes]:
     """A mesh that light does not change; nothing of it if it is empty."""
     if not len(mesh):
         return [remove(path)]
-    corners = np.round(mesh.corners.reshape(-1, 3), 4).astype(np.float32)
-    order = np.arange(len(corners), dtype=np.uint32).reshape(-1, 3)
-    arrays = [umsgpack.packb(geometry.pack_numpy_array(each.T)) for each in (corners, order)]
-    head, middle, end = _flat_without_arrays(path, color=_number(colour), **look)
-    return [b"".join((head, arrays[0], middle, arrays[1], end)), cast_no_shadow(path)]
-
-
-@cache
-def _flat_without_arrays(path: str, **look: Any) -> list[bytes]:
-    """The command that shows such a mesh, in three parts, between which its corners and their order belong.
-
-    They are packed once, since trail and scan come several times a second, and packing takes longer than all else.
-    """
-    shape = geometry.TriangularMeshGeometry(np.zeros((3, 3)), np.zeros((1, 3)))
-    command = _shown(path, shape, geometry.MeshBasicMaterial(vertexColors=False, **look), geometry.Mesh)
-    data = command["object"]["geometries"][0]["data"]
-    data["attributes"]["position"] = data["index"] = GAP
-    return umsgpack.packb(command).split(umsgpack.packb(GAP))
-
-
-GAP = "\0arrays\0"
+    return [show(path, mesh, lit=False, color=_number(colour), **look), cast_no_shadow(path)]
 
 
 def obstacles(these: Iterable[Obstacle]) -> list[bytes]:
     """The obstacles: cylinders and boxes, with a dark line around the top."""
     commands = [remove("lab/obstacles")]
+    high = scene_mesh.OBSTACLE_HEIGHT
     for number, each in enumerate(these):
         path = f"lab/obstacles/{number}"
-        block, place = _block(each)
+        place = placed(each.x, each.y, high / 2, each.angle)
+        block: dict[str, Any] = {"type": "BoxGeometry", "width": each.width, "height": each.height, "depth": high}
+        if isinstance(each, Circle):  # a cylinder, whose axis is y in three.js, is put upright
+            block = {"type": "CylinderGeometry", "height": high, "radialSegments": 50}
+            block |= {"radiusTop": each.radius, "radiusBottom": each.radius}
+            place @= np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
         outline = scene_mesh.outline(each)
-        rim = np.column_stack([outline, np.full(len(outline), scene_mesh.OBSTACLE_HEIGHT + 0.003)])
-        edge = geometry.PointsGeometry(np.round(rim, 4).astype(np.float32).T)
-        line = geometry.LineBasicMaterial(color=_number(scene_mesh.OBSTACLE_EDGE))
+        rim = np.column_stack([outline, np.full(len(outline), high + 0.003)])
+        line = {"type": "LineBasicMaterial", "color": _number(scene_mesh.OBSTACLE_EDGE)}
         commands += [
-            _show(f"{path}/block", block, geometry.MeshLambertMaterial(color=_number(scene_mesh.OBSTACLE))),
+            _show(f"{path}/block", block, {"type": "MeshLambertMaterial", "color": _number(scene_mesh.OBSTACLE)}),
             put(f"{path}/block", place),
-            _show(f"{path}/edge", edge, line, geometry.LineLoop),
+            _show(f"{path}/edge", _points(rim), line, "LineLoop"),
             cast_no_shadow(f"{path}/edge"),
         ]
     return commands
-
-
-def _block(obstacle: Obstacle) -> tuple[geometry.Geometry, np.ndarray]:
-    """Its shape and place; a cylinder, whose axis is y in three.js, is put upright, and stretched if it is no circle."""
-    wide, deep, high = obstacle.width, obstacle.height, scene_mesh.OBSTACLE_HEIGHT
-    there = placed(obstacle.x, obstacle.y, high / 2, obstacle.angle)
-    if obstacle.shape == "box":
-        return geometry.Box([wide, deep, high]), there
-    upright = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
-    return geometry.Cylinder(high, wide / 2), there @ np.diag([1, deep / wide if wide else 1, 1, 1]) @ upright
 
 
 def goal(current: Goal | None) -> list[bytes]:

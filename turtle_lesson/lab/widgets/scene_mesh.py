@@ -10,10 +10,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...turtlesim.obstacles import Circle, Obstacle
 from .. import drawing
 from ..drawing import BACK, BODY, HEAD, LEGS, OUTLINE, RIM, SHELL, SKIN, TAIL
 from ..path import TOLERANCE
-from ..recording import WORLD, Obstacle
+from ..recording import WORLD
 from ..status_and_scan import Beams, reach_of
 
 
@@ -254,9 +255,8 @@ def walls() -> list[Mesh]:
 def outline(obstacle: Obstacle) -> np.ndarray:
     """The outline of an obstacle, from above: n by 2."""
     wide, high = obstacle.width / 2, obstacle.height / 2
-    if obstacle.shape == "box":
-        flat = np.array([(-wide, -high, 0.0), (wide, -high, 0.0), (wide, high, 0.0), (-wide, high, 0.0)])
-    else:
+    flat = np.array([(-wide, -high, 0.0), (wide, -high, 0.0), (wide, high, 0.0), (-wide, high, 0.0)])
+    if isinstance(obstacle, Circle):
         flat = ring((0, 0, 0), wide, high, 36)
     matrix = placed(obstacle.x, obstacle.y, 0.0, obstacle.angle)
     return (flat @ matrix[:3, :3].T + matrix[:3, 3])[:, :2]

@@ -17,7 +17,7 @@ from ..words import number, point
 from . import scene_commands
 from .goal_client import goals_from
 from .live_widget import pack, script, styles
-from .scene_commands import ScenePath, cast_no_shadow, packed, show
+from .scene_commands import cast_no_shadow, packed, show
 from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
 
 if TYPE_CHECKING:
@@ -199,11 +199,22 @@ def _flags(goals: list[Goal], begin: float, end: float) -> tuple[list[bytes], di
 
 def _animation(tracks: dict[str, Tracks]) -> bytes:
     """The command for all tracks; one frame a second, so that a frame's number is its time."""
-    from meshcat.animation import Animation, AnimationClip, AnimationTrack
-    from meshcat.commands import SetAnimation
-
-    animation = Animation(default_framerate=1)
-    for path, named in tracks.items():
-        made = {name: AnimationTrack(name, kind, times, values) for name, (kind, times, values) in named.items()}
-        animation.clips[ScenePath(tuple(path.split("/")))] = AnimationClip(made, fps=1)
-    return packed(SetAnimation(animation, play=False))
+    animations = [
+        {
+            "path": f"/{path}",
+            "clip": {
+                "fps": 1,
+                "name": "default",
+                "tracks": [
+                    {
+                        "name": f".{name}",
+                        "type": kind,
+                        "keys": [{"time": time, "value": value} for time, value in zip(times, values, strict=True)],
+                    }
+                    for name, (kind, times, values) in named.items()
+                ],
+            },
+        }
+        for path, named in tracks.items()
+    ]
+    return packed("set_animation", "", animations=animations, options={"play": False, "repetitions": 1})
