@@ -117,7 +117,7 @@ def test_the_turtle_goes_where_its_pose_says(lesson: Lesson, scene: Scene) -> No
 
 
 def test_the_path_grows_and_only_its_tip_is_sent_again(lesson: Lesson, scene: Scene) -> None:
-    drive_to(lesson, 9.0, 5.5, seconds=0.7)
+    drive_to(lesson, 9.0, 5.5, seconds=0.4)
     scene.redraw()
     old, tip = scene.trail, scene.tip
     lesson.run(0.2)

@@ -129,7 +129,7 @@ def test_before_any_time_has_passed_it_says_so(lesson: Lesson) -> None:
 
 def test_what_is_no_row_is_explained(lesson: Lesson) -> None:
     lesson.run(1)
-    with pytest.raises(ValueError, match="Did you mean /turtle1/pose"):
+    with pytest.raises(ValueError, match='Did you mean "/turtle1/pose"'):
         lesson.plot_timeline("/turtle1/poes")
     with pytest.raises(TypeError, match="a row is the name of a topic or of a node"):
         lesson.plot_timeline(3)  # type: ignore[arg-type]
@@ -219,7 +219,7 @@ def test_nothing_was_called_yet_or_not_in_these_seconds(lesson: Lesson, capsys: 
 
     assert lesson.plot_sequence().text == "No node has called a service yet. Try: ros2 service call /navigate_to …"
     run_line(lesson._world, "ros2 service call /clear std_srvs/srv/Empty")
-    assert "Did you mean /clear?" in lesson.plot_sequence("/claer").text
+    assert 'Did you mean "/clear"?' in lesson.plot_sequence("/claer").text
     assert "the calls were between 0.100 s" not in lesson.plot_sequence("/clear").text
     lesson.run(1)
     assert "No node called /clear from 1.00 s" in lesson.plot_sequence("/clear", since=1).text

@@ -259,15 +259,6 @@ def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.
     _draw_scutes(axes, place, 5.06)
 
 
-def turtle_points(x: float, y: float) -> np.ndarray:
-    """Return points (n by 2) that a turtle covers, however it is turned."""
-    import numpy as np
-
-    turns = np.linspace(0, math.tau, 24, endpoint=False)
-    rings = [part * 0.95 / 2 * np.column_stack([np.cos(turns), np.sin(turns)]) for part in (0.4, 0.7, 1.0)]
-    return np.array([x, y]) + np.concatenate(rings)
-
-
 def _ellipse(kind: Any, shape: tuple[float, ...], side: int = 1) -> Any:
     x, y, width, height, turn = shape
     return kind((x, side * y), width, height, angle=side * turn)

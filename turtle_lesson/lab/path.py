@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import drawing
-from .drawing import Picture, draw_obstacles, draw_turtle, turtle_points
+from .drawing import Picture, draw_obstacles, draw_turtle
 from .recording import WORLD, Recording, Table
 from .words import angle, count, number, point, turned
 
@@ -30,16 +30,17 @@ SLACK = 0.05
 TOLERANCE = 0.2
 """Metres within which a goal counts as reached: the radius of the ring around it."""
 
-BEND = 0.06
-"""A trail of few points has one where the way has turned by so much, rad."""
 MOST_POINTS = 900
-"""Points that it has in all."""
+"""Points that a trail has in all."""
 
 BANDS = 12
 """The trail is drawn in so many parts, the older the paler."""
 
 LABEL = (0.45, 0.2)
 """Half the width and half the height of the word "start", m."""
+
+NEAR = 0.8
+"""As near to the middle of the turtle or of a goal (m) it would cover them."""
 
 
 Place = tuple[float, float]
@@ -81,15 +82,13 @@ def _steps(poses: np.ndarray) -> np.ndarray:
 class Trail:
     """The turtle's way in few points, from a table of poses. `old` changes now and then, `tip` all the time.
 
-    Points are at least `step` and at most `stretch` metres apart; between the two, there is one where the way has turned by
-    BEND. The newest piece has at most `tip` points, all pieces together `most`: the oldest go.
+    Points are `spacing` metres apart. The newest piece has at most `tip` of them, all pieces together `most`: the oldest go.
     """
 
-    def __init__(self, step: float = 0.04, stretch: float = 1.0, tip: int = 24, most: int = MOST_POINTS) -> None:
-        self._step, self._stretch, self._longest, self._most = step, stretch, tip, most
+    def __init__(self, spacing: float = 0.1, tip: int = 24, most: int = MOST_POINTS) -> None:
+        self._spacing, self._longest, self._most = spacing, tip, most
         self._seen: int | None = None
         self._here: Place | None = None
-        self._turn = 0.0
         self._tip: list[Place] = []
         self.old: list[np.ndarray] = []
         """The pieces that change no more: each n by 2, m."""
@@ -113,48 +112,25 @@ class Trail:
         jumps = set(find_jumps(rows).tolist())
         moved = any(place != self._here for place in places[known:])
         for index in range(known, len(places)):
-            self._add(places[index], index in jumps)
+            if index in jumps:
+                self._tip += [] if self._here is None else [self._here]
+                self._finish([])
+            if not self._tip or math.dist(self._tip[-1], places[index]) >= self._spacing:
+                self._tip.append(places[index])
+                if len(self._tip) >= self._longest:
+                    self._finish([places[index]])
+            self._here = places[index]
         self._seen = int(rows["stamp"][-1])
         return moved
 
-    def _add(self, place: Place, jumped: bool) -> None:
-        if jumped:
-            self._finish([])
-        if not self._tip:
-            self._tip.append(place)
-        far, turn = _way(self._tip[-1], place)
-        if far >= self._step:
-            bent = abs(math.remainder(turn - self._turn, math.tau)) > BEND
-            if len(self._tip) == 1 or far >= self._stretch:
-                self._keep(place)
-            elif bent:
-                self._keep(place if self._here is None else self._here)
-        self._here = place
-
-    def _keep(self, place: Place) -> None:
-        far, turn = _way(self._tip[-1], place)
-        if far:
-            self._tip.append(place)
-            self._turn = turn
-            if len(self._tip) >= self._longest:
-                self._finish([place])
-
     def _finish(self, begin: list[Place]) -> None:
         """The newest piece is done; another one begins."""
-        if self._here is not None and not begin:
-            self._tip.append(self._here)
         if len(self._tip) > 1:
             self.old.append(np.array(self._tip))
         while sum(map(len, self.old)) > self._most:
             del self.old[0]
         self._tip = begin
         self.changes += 1
-
-
-def _way(begin: Place, end: Place) -> tuple[float, float]:
-    """How far it is (m), and in which direction (rad)."""
-    x, y = end[0] - begin[0], end[1] - begin[1]
-    return math.hypot(x, y), math.atan2(y, x)
 
 
 def plot_path(
@@ -236,18 +212,17 @@ def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: fl
         spine.set(visible=True, color=drawing.INK, linewidth=1.4, zorder=4)
     draw_obstacles(axes, recording.obstacles.values())
     last = poses[-1]
-    signs = [turtle_points(last["x"], last["y"]), *map(goal_points, goals)]
-    _draw_trail(axes, poses, jumps, np.concatenate(signs))
+    _draw_trail(axes, poses, jumps, [(last["x"], last["y"]), *((goal.x, goal.y + 0.4) for goal in goals)])
     for goal in goals:
         _draw_goal(axes, goal)
     draw_turtle(axes, last["x"], last["y"], last["theta"])
     return figure
 
 
-def _draw_trail(axes: Axes, poses: np.ndarray, jumps: np.ndarray, taken: np.ndarray) -> None:
+def _draw_trail(axes: Axes, poses: np.ndarray, jumps: np.ndarray, signs: list[Place]) -> None:
     """Draw the trail of `poses` (fields `x`, `y` in metres), dotted where a jump leads to a pose.
 
-    `taken` holds points (n by 2, m) that its label must not cover, such as those of the turtle.
+    `signs` are the middles of the turtle and of the flags, which its label must not cover.
     """
     places = np.column_stack([poses["x"], poses["y"]])
     for jump in jumps:
@@ -261,7 +236,7 @@ def _draw_trail(axes: Axes, poses: np.ndarray, jumps: np.ndarray, taken: np.ndar
             axes.plot(*path.T, alpha=0.3 + 0.7 * band / (BANDS - 1), **look)
     pieces = np.stack([places[chosen[:-1]], places[chosen[1:]]], axis=1)
     _draw_heads(axes, pieces[~np.isin(chosen[1:], jumps)])
-    _draw_start(axes, places, np.concatenate([places[chosen], taken]))
+    _draw_start(axes, places, places[chosen], np.array(signs))
 
 
 def _draw_heads(axes: Axes, pieces: np.ndarray, size: float = 0.15) -> None:
@@ -283,7 +258,7 @@ def _draw_heads(axes: Axes, pieces: np.ndarray, size: float = 0.15) -> None:
     axes.add_collection(LineCollection(heads, **look), autolim=False)
 
 
-def _draw_start(axes: Axes, places: np.ndarray, taken: np.ndarray) -> None:
+def _draw_start(axes: Axes, places: np.ndarray, trail: np.ndarray, signs: np.ndarray) -> None:
     """A ring where the trail starts, and its name beside it, where it covers as little as possible."""
     x, y = places[0]
     away = places[np.hypot(*(places - places[0]).T) > 0.5]
@@ -291,18 +266,15 @@ def _draw_start(axes: Axes, places: np.ndarray, taken: np.ndarray) -> None:
     ring: dict[str, Any] = {"markerfacecolor": "#d3e6f3", "markeredgecolor": drawing.BLUE, "markeredgewidth": 1.6}
     axes.plot([x], [y], marker="o", markersize=6.5, zorder=3.5, **ring)
     label: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 8.5, "color": drawing.INK}
-    axes.text(*_free_place(x, y, behind, taken), "start", zorder=3.5, **label)
-
-
-def _free_place(x: float, y: float, wanted: float, taken: np.ndarray) -> tuple[float, float]:
-    """A place for the label around (x, y): where it covers least, near, and in the wanted direction (rad)."""
-    turns = [wanted + sign * math.pi / 4 * step for step in range(5) for sign in (1, -1)]
-    ways = [(far * math.cos(turn), far * math.sin(turn)) for far in (1.0, 1.6, 2.2, 3.0) for turn in turns]
-    places = np.array([(x + 0.68 * across, y + 0.45 * up) for across, up in ways])
-    within = np.clip(places, np.array(LABEL) + 0.05, WORLD - 0.05 - np.array(LABEL))
-    covered = [(np.abs(taken - place) < LABEL).all(axis=1).sum() for place in within]
-    across, up = within[np.argmin(covered)]
-    return float(across), float(up)
+    turns = np.array([behind + sign * math.pi / 4 * step for step in range(5) for sign in (1, -1)])
+    round_it = np.column_stack([0.68 * np.cos(turns), 0.45 * np.sin(turns)])
+    free = np.concatenate([places[0] + far * round_it for far in (1.0, 1.6, 2.2, 3.0)])
+    free = np.clip(free, np.array(LABEL) + 0.05, WORLD - 0.05 - np.array(LABEL))
+    covered = [
+        (np.abs(trail - place) < LABEL).all(axis=1).sum() + 20 * (np.hypot(*(signs - place).T) < NEAR).sum()
+        for place in free
+    ]
+    axes.text(*free[np.argmin(covered)], "start", zorder=3.5, **label)
 
 
 class Goal(NamedTuple):
@@ -317,30 +289,19 @@ def read_goals(given: Any) -> list[Goal]:
     """Return the goals that were given as None, (x, y), (x, y, theta), or a list of these."""
     if given is None:
         return []
+    wrong = ValueError(
+        "a goal is (x, y) in metres, or (x, y, theta) with the heading in radians, or a list of these; "
+        f"got {given!r}; try goal=(8.0, 8.0, 1.57)"
+    )
     try:
         items = list(given)
-    except TypeError:
-        items = [given]
-    one = items and all(isinstance(item, Real) for item in items)
-    goals = []
-    for item in [items] if one else items:
-        try:
-            numbers = [float(value) for value in item]
-        except (TypeError, ValueError):
-            numbers = []
-        if len(numbers) not in (2, 3) or not all(map(math.isfinite, numbers)):
-            raise ValueError(
-                "a goal is (x, y) in metres, or (x, y, theta) with the heading in radians, or a list of these; "
-                f"got {item!r}; try goal=(8.0, 8.0, 1.57)"
-            )
-        goals.append(Goal(*numbers))
+        one = items and all(isinstance(item, Real) for item in items)
+        goals = [Goal(*map(float, item)) for item in ([items] if one else items)]
+    except (TypeError, ValueError):
+        raise wrong from None
+    if not all(math.isfinite(value) for goal in goals for value in goal if value is not None):
+        raise wrong
     return goals
-
-
-def goal_points(goal: Goal) -> np.ndarray:
-    """Return points (n by 2, m) that a goal's flag and ring cover."""
-    flag = [(right, up) for right in (0.0, 0.15, 0.3) for up in np.arange(-0.4, 0.95, 0.1)]
-    return np.array([goal.x, goal.y]) + np.array([*flag, (-0.2, 0.0), (0.4, 0.0)])
 
 
 def _draw_goal(axes: Axes, goal: Goal) -> None:

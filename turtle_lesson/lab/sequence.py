@@ -10,12 +10,11 @@ from itertools import chain
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..ros.idl.names import nearest
 from . import drawing
 from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture, plain_line
 from .recording import NANOSECONDS
 from .timeline import SHORT, Window, window_of
-from .words import count, listed, number, shortened
+from .words import count, did_you_mean, listed, number, shortened
 
 if TYPE_CHECKING:
     from ..ros.rmw.trace import Call, Callback, Trace
@@ -59,9 +58,9 @@ def _nothing(trace: Trace, names: list[str], called: Sequence[Call], window: Win
         when = f"{number(called[0].asked / NANOSECONDS)} s and {number(called[-1].asked / NANOSECONDS)} s"
         return f"No node called {what} from {window.seconds}: the calls were between {when}."
     others = sorted({call.service for call in trace.calls})
-    close = nearest(names[0], others) if names else ""
-    meant = f" Did you mean {close}?" if close else ""
-    return f"No node has called {what} yet.{meant} Try: ros2 service call {names[0] if names else '/navigate_to'} …"
+    meant = did_you_mean(names[0], others) if names else ""
+    hint = f"Try: ros2 service call {names[0] if names else '/navigate_to'} …"
+    return " ".join(filter(None, [f"No node has called {what} yet.", meant, hint]))
 
 
 def _sentence(step: Step) -> str:

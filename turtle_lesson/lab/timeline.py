@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,7 @@ from . import drawing
 from .drawing import Picture
 from .graph import EVERYWHERE, PARAMETER_SERVICES, node_names
 from .recording import NANOSECONDS, nanoseconds
-from .words import count, listed, number, rate, shortened
+from .words import count, listed, number, rate, shortened, suggestion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -79,29 +78,31 @@ def _draw(lanes: list[Lane], window: Window) -> Figure:
         left, line = 0.2 / WIDTH, 0.075 / height
         figure.text(left, middle + line, shortened(lane.name, 26), fontsize=8.8, va="center")
         figure.text(left, middle - line, shortened(lane.about, 30), fontsize=7.4, color=drawing.INK, va="center")
-    _legend(figure, lanes)
+    # what the signs mean, of those that are there, beneath the axes
+    signs = {label: sign for sign, label in zip(*axes.get_legend_handles_labels(), strict=True)}
+    look: dict[str, Any] = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
+    if signs:
+        place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.02, 0.0), "ncols": len(signs)}
+        figure.legend(signs.values(), signs.keys(), **place, **look, markerscale=0.6)
     return figure
 
 
 def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
     axes.axhline(place, color=drawing.LINE, linewidth=0.8, zorder=0.5)
-    for begin, end in lane.waits / NANOSECONDS:  # beneath the bars, for it may be another run that lasts meanwhile
-        line: dict[str, Any] = {
-            "color": drawing.VERMILLION,
-            "linewidth": 1.6,
-            "linestyle": (0, (1.2, 1.2)),
-            "zorder": 2,
-        }
-        axes.plot([begin, end], [place + 0.37] * 2, **line)
-        axes.plot([begin], [place + 0.37], color=drawing.VERMILLION, marker="o", markersize=3.0, zorder=2)
+    colour = drawing.GREEN if lane.callback else drawing.BLUE
+    if len(lane.marks):
+        marks = lane.marks / NANOSECONDS
+        tick: dict[str, Any] = {"marker": "|", "markersize": 15.5, "markeredgewidth": _mark_width(axes, marks)}
+        label = "a short call" if lane.callback else "a message"
+        axes.plot(marks, [place] * len(marks), color=colour, linestyle="none", zorder=3, label=label, **tick)
     if len(lane.bars):
         spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
-        look = AWAITS if lane.awaits else HOLDS
-        axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, **look)
-    if len(lane.marks):
-        colour = drawing.GREEN if lane.callback else drawing.BLUE
-        marks = lane.marks / NANOSECONDS
-        axes.vlines(marks, place - 0.27, place + 0.27, color=colour, linewidth=_mark_width(axes, marks), zorder=3)
+        label, look = ("awaits, thread free", AWAITS) if lane.awaits else ("holds its thread", HOLDS)
+        axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, label=label, **look)
+    dots: dict[str, Any] = {"linewidth": 1.6, "linestyle": (0, (1.2, 1.2)), "marker": "o", "markersize": 3.0}
+    for wait in lane.waits / NANOSECONDS:  # beneath the bars, for it may be another run that lasts meanwhile
+        look = {"color": drawing.VERMILLION, "markevery": [0], "zorder": 2, "label": "ready, had to wait"}
+        axes.plot(wait, [place + 0.37] * 2, **look, **dots)
 
 
 def _mark_width(axes: Axes, marks: np.ndarray) -> float:
@@ -111,34 +112,6 @@ def _mark_width(axes: Axes, marks: np.ndarray) -> float:
     low, high = axes.get_xlim()
     gap = float(np.median(np.diff(marks))) / (high - low) * (WIDTH - LEFT - RIGHT) * 72
     return min(1.5, max(0.3, 0.5 * gap))
-
-
-def _legend(figure: Figure, lanes: list[Lane]) -> None:
-    """What the signs mean, of those that are there, beneath the axes."""
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-
-    tick: dict[str, Any] = {"linestyle": "none", "marker": "|", "markersize": 9, "markeredgewidth": 1.5}
-    wait: dict[str, Any] = {"marker": "o", "markersize": 3, "linestyle": (0, (1.2, 1.2)), "linewidth": 1.6}
-    signs: list[tuple[bool, Any]] = [
-        (
-            any(len(lane.marks) for lane in lanes if not lane.callback),
-            Line2D([], [], color=drawing.BLUE, label="a message", **tick),
-        ),
-        (
-            any(len(lane.marks) for lane in lanes if lane.callback),
-            Line2D([], [], color=drawing.GREEN, label="a short call", **tick),
-        ),
-        (any(len(lane.bars) for lane in lanes if not lane.awaits), Patch(**HOLDS, label="holds its thread")),
-        (any(len(lane.bars) for lane in lanes if lane.awaits), Patch(**AWAITS, label="awaits, thread free")),
-        (
-            any(len(lane.waits) for lane in lanes),
-            Line2D([], [], color=drawing.VERMILLION, label="ready, had to wait", **wait),
-        ),
-    ]
-    if shown := [sign for is_there, sign in signs if is_there]:
-        look: dict[str, Any] = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
-        figure.legend(handles=shown, loc="lower left", bbox_to_anchor=(0.02, 0.0), ncols=len(shown), **look)
 
 
 SHORT = 1_000_000
@@ -221,10 +194,8 @@ def lanes_of(
             lanes.append(_topic_lane(trace, full, window))
         else:
             visible = sorted(each for each in topics if not is_hidden(each))
-            close = difflib.get_close_matches(full, [*nodes, *visible], 3, 0.6)
-            meant = f"Did you mean {' or '.join(close)}? " if close else ""
-            there = f"There are the nodes {listed(nodes) or 'none'} and the topics {listed(visible) or 'none'}"
-            raise ValueError(f"{full} is neither a topic nor a node that has run here. {meant}{there}.")
+            hint = suggestion(full, [*nodes, *visible])
+            raise ValueError(f"{full} is neither a topic nor a node that has run here. {hint}")
     return lanes
 
 

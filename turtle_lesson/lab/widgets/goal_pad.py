@@ -94,7 +94,7 @@ class GoalPad(LiveWidget):
     """How many were sent before those."""
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
-        self._trail = Trail(SPACING, SPACING, TAIL, KEPT)
+        self._trail = Trail(SPACING, TAIL, KEPT)
         self._changes = 0
         self._trail_end: tuple[float, ...] = ()
         self._pose_shown: tuple[float, ...] | None = None
