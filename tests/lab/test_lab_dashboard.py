@@ -406,7 +406,8 @@ def test_a_log_that_was_closed_goes_on_without_a_line_twice(lesson: Lesson, dash
 
 def test_the_log_keeps_the_newest_lines_and_sends_few_again(dashboard: Dashboard) -> None:
     for number in range(1200):
-        dashboard._add_lines([(number * SECOND, "INFO", "chatter", f"line {number}")])
+        dashboard._log_waiting[:] = [(number * SECOND, "INFO", "chatter", f"line {number}")]
+        dashboard._add_lines()
         assert len(dashboard.log_new) <= module.BLOCK
     texts = log_texts(dashboard)
     assert module.KEPT <= len(texts) <= module.KEPT + module.BLOCK
@@ -419,11 +420,6 @@ def test_the_level_is_the_same_in_all_windows(dashboard: Dashboard) -> None:
     order(dashboard, "log_least", level="LOUD")
     assert dashboard.log_least == "WARN"
     assert dashboard.words == "There is no level 'LOUD'; there are DEBUG, INFO, WARN, ERROR, FATAL."
-
-
-@pytest.mark.parametrize(("level", "name"), [(10, "DEBUG"), (20, "INFO"), (25, "INFO"), (b"(", "ERROR"), (50, "FATAL")])
-def test_levels_have_names(level: Any, name: str) -> None:
-    assert module.level_name(level) == name
 
 
 # -- the page ----------------------------------------------------------------------------------------------------------

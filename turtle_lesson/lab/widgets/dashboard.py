@@ -94,9 +94,7 @@ class Dashboard(GoalPad):
     """Lines below this level are not shown."""
 
     def __init__(self, backend: Backend) -> None:
-        self._status_newest: float = -1  # stamps, ns
-        self._status_sent = -1
-        self._scan_read: Any = None
+        self._status_sent = -1  # stamp, ns
         self._heard: dict[str, tuple[Channel, Table, str]] = {}  # with the reason why a topic cannot be heard
         self._rosout: Subscription | None = None
         self._log_waiting: list[tuple[int, str, str, str]] = []
@@ -106,9 +104,8 @@ class Dashboard(GoalPad):
     def opened(self) -> None:
         super().opened()
         self._log_read_until = self._log_newest
-        latched = QoSProfile(
-            depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL
-        )  # what was said before comes first
+        # what was said before comes first
+        latched = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._rosout = self.backend.node.create_subscription(Log, "/rosout", self._hear_log, latched)
 
     def closed(self) -> None:
@@ -132,8 +129,7 @@ class Dashboard(GoalPad):
         if self.due("rates", 4):
             self.rates = [*self._expected_rates(), *self._other_rates()]
         if self._log_waiting and self.due("log", 5):
-            waiting, self._log_waiting = self._log_waiting, []
-            self._add_lines(sorted(waiting, key=itemgetter(0)))
+            self._add_lines()
 
     def _text(self) -> str:
         scan = self.backend.recorder.last_scan
@@ -171,39 +167,41 @@ class Dashboard(GoalPad):
         recorder, now = self.backend.recorder, self.backend.now
         newest = recorder.statuses.last()
         if newest:
-            if newest[0] != self._status_newest:
-                self._status_newest = newest[0]
-                self._send_statuses(_thinned(recorder.statuses.newest(MOST_STATUSES), self._now()))
+            if self.is_new("status", newest):
+                self._send_statuses()
             age = now - recorder.seconds(newest[0])
             self.status_note = f"No status for {age:.0f} s." if age > LATE else ""
         elif self.due("status note", 1):
             self.status_note = self._why_silent(STATUS_TOPIC)
 
-    def _send_statuses(self, rows: np.ndarray) -> None:
+    def _send_statuses(self) -> None:
+        """Send those of the window, thinned so that a point that stays does not move while time goes on."""
+        rows = self.backend.recorder.statuses.newest(MOST_STATUSES)
+        rows = rows[rows["stamp"] >= self._now() - round(WINDOW * NANOSECONDS)]
+        if len(rows) > POINTS:
+            slots = rows["stamp"] // round(WINDOW / POINTS * NANOSECONDS)
+            rows = rows[np.append(slots[1:] != slots[:-1], True)]
         if not len(rows):  # all are older than the window
             return
         new = rows[rows["stamp"] > self._status_sent]
         if self._status_sent < 0 or len(new) > STATUS_TIP:
             self._status_sent = int(rows["stamp"][-1])
             self.status_from = float(self.backend.recorder.seconds(self._status_sent))
-            self.status = pack(_columns(rows, self._status_sent))
+            self.status = _packed(rows, self._status_sent)
             new = rows[:0]
-        self.status_tip = pack(_columns(new, self._status_sent))
+        self.status_tip = _packed(new, self._status_sent)
 
     def _show_scan_in_words(self) -> None:
         recorder = self.backend.recorder
-        scan = recorder.last_scan
-        if scan is None:
+        scanned = recorder.scans.last()
+        if not scanned:
             if self.due("scan note", 1):
                 self.scan_words = {"beam": -1, "nearest": "", "count": "", "note": self._why_silent(SCAN_TOPIC)}
             return
-        age = self.backend.now - float(recorder.seconds(recorder.scans.newest(1)["stamp"][0]))
+        age = self.backend.now - recorder.seconds(scanned[0])
         note = f"No scan for {age:.0f} s." if age > LATE else ""
-        if scan is not self._scan_read:
-            self._scan_read = scan
-            self.scan_words = {**in_words(read_beams(scan)), "note": note}
-        elif note != self.scan_words["note"]:
-            self.scan_words = {**self.scan_words, "note": note}
+        if self.is_new("scan in words", (scanned, note)):
+            self.scan_words = {**in_words(read_beams(recorder.last_scan)), "note": note}
 
     # -- rates ---------------------------------------------------------------------------------------------------------
 
@@ -280,24 +278,19 @@ class Dashboard(GoalPad):
         if stamp <= self._log_read_until:
             return  # heard before the panel was last closed
         self._log_newest = max(self._log_newest, stamp)
-        self._log_waiting.append((stamp, level_name(message.level), message.name, message.msg))
+        self._log_waiting.append((stamp, LEVELS[min(max(message.level // 10 - 1, 0), 4)], message.name, message.msg))
         del self._log_waiting[:-KEPT]
 
-    def _add_lines(self, heard: list[tuple[int, str, str, str]]) -> None:
+    def _add_lines(self) -> None:
         new = list(self.log_new)
-        for stamp, *what in heard:
+        for stamp, *what in sorted(self._log_waiting, key=itemgetter(0)):
             self._log_count += 1
             new.append([self._log_count, round(float(self.backend.recorder.seconds(stamp)), 3), *what])
+        self._log_waiting.clear()
         if len(new) > BLOCK:
             self.log_old = [*self.log_old, *new][-KEPT:]
             new = []
         self.log_new = new
-
-
-def level_name(level: Any) -> str:
-    """The name of a level of rcl_interfaces/msg/Log: 20 is "INFO", and so is what lies between 20 and 30."""
-    number = level[0] if isinstance(level, bytes) else int(level)
-    return LEVELS[min(max(number // 10 - 1, 0), len(LEVELS) - 1)]
 
 
 def look(node: Node) -> list[dict[str, Any]]:
@@ -321,19 +314,10 @@ def _light(name: str, kind: str, amount: int, by: str = "") -> dict[str, Any]:
     return {"name": name, "kind": kind, "state": state, "words": words}
 
 
-def _thinned(rows: np.ndarray, now: int) -> np.ndarray:
-    """The statuses of the window, thinned so that a point that stays does not move while time goes on."""
-    rows = rows[rows["stamp"] >= now - round(WINDOW * NANOSECONDS)]
-    if len(rows) > POINTS:
-        slots = rows["stamp"] // round(WINDOW / POINTS * NANOSECONDS)
-        rows = rows[np.append(slots[1:] != slots[:-1], True)]
-    return rows
-
-
-def _columns(rows: np.ndarray, begin: int) -> np.ndarray:
+def _packed(rows: np.ndarray, begin: int) -> bytes:
     """What the browser gets of statuses, their times since `begin` (ns)."""
     seconds, speed = (rows["stamp"] - begin) / NANOSECONDS, np.hypot(rows["vel_x"], rows["vel_y"])
-    return np.column_stack([seconds, rows["x"], rows["y"], rows["theta"], speed, rows["battery"]])
+    return pack(np.column_stack([seconds, rows["x"], rows["y"], rows["theta"], speed, rows["battery"]]))
 
 
 def frequency(stamps: np.ndarray, now: int, pause: float = RATE_WINDOW) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,9 +13,11 @@ from weakref import WeakSet
 
 from rcl_interfaces.msg import Log
 from rclpy.subscription import Subscription
+from rclpy.task import Future
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..graph import owner, servers
+from ..recording import NANOSECONDS
 from ..words import within
 from .backend import DISCOVERY, Backend
 
@@ -75,16 +78,22 @@ def goals_from(backend: Backend) -> list[Goal]:
 
 
 class GoalClient:
-    """Sends goals and keeps their list; `changed(goal)` is called with each news of one."""
+    """Sends goals and keeps their list; `changed(goal)` is called with each news of one.
+
+    It also watches the node that answers: whether it is still there, and its warnings, which say why a goal failed.
+    """
 
     def __init__(self, backend: Backend, changed: Callable[[Goal], None]) -> None:
         self._backend, self._changed = backend, changed
         self._client: Any = None
         self._found_by = 0.0
-        self._asked: dict[int, Any] = {}
+        self._asked: dict[int, Future] = {}
         self._unexplained: dict[int, Goal] = {}
         self._wanted = False
-        self.server = ServerWatcher(backend, SERVICE, self._explain)
+        self._log: Subscription | None = None
+        self._servers: list[str] = []
+        self._ends: set[tuple[int, ...]] = set()
+        self._warnings: deque[tuple[float, str]] = deque(maxlen=1000)
         self.goals: list[Goal] = []
         _desks.add(self)
 
@@ -106,13 +115,11 @@ class GoalClient:
 
     def look(self) -> None:
         """Look whether the navigator is there for the goals that wait. Call it now and then."""
-        if not any(goal.waits for goal in self.goals):
-            return
-        gone = not self.server.is_there()
         for goal in [goal for goal in self.goals if goal.waits]:
             if goal.state != "on its way":
                 self._ask(goal)
-            elif gone:
+            # started again, it has forgotten all calls: the end with which it publishes its log is another one then
+            elif not (self._client.service_is_ready() and self._ends <= self._rosout_ends()):
                 self._client.remove_pending_request(self._asked.pop(goal.number, None))
                 words = "The navigator was stopped on the way; send the goal again when another one is running."
                 self._finish(goal, "no answer", words)
@@ -127,12 +134,13 @@ class GoalClient:
         self._leave_if_done()
 
     def close(self) -> None:
-        """Ask no more."""
+        """Ask no more, and listen no more."""
         self._asked.clear()
-        self.server.close()
+        if self._log is not None:
+            self._backend.node.destroy_subscription(self._log)
         if self._client is not None:
             self._backend.node.destroy_client(self._client)
-            self._client = None
+        self._log = self._client = None
 
     def _ask(self, goal: Goal) -> None:
         try:
@@ -143,31 +151,31 @@ class GoalClient:
             build = "colcon build --packages-select robot_controller, then source install/setup.bash"
             words = f"The package robot_controller is not here. Build it and source it: {build}"
             self._finish(goal, "not sent", words)
+            return
         except (AssertionError, TypeError, ValueError) as error:  # too large for its float32
             self._finish(goal, "not sent", f"{error}")
-        else:
-            self._call(goal, NavigateTo, request)
-
-    def _call(self, goal: Goal, service: Any, request: Any) -> None:
-        now = real_monotonic()
-        if self._client is None or self._client.srv_type is not service:  # built anew, it is another one
-            self.close()
-            self._client = self._backend.node.create_client(service, SERVICE)
-            self._found_by = now + (DISCOVERY if self._backend.clock is None else 0)
-        if not self._client.service_is_ready():
-            if now >= self._found_by:
-                by_hand = "ros2 run robot_controller navigator"
-                how = f'Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") or {by_hand} &'
-                if self._backend.clock is None:
-                    how = f"Start the navigator in a terminal: {by_hand}"
-                self._finish(goal, "not sent", f"No node answers {SERVICE}. {how}")
             return
-        goal.state = "on its way"
-        self._asked[goal.number] = future = self._client.call_async(request)
-        self.server.listen()  # after the request, which need not wait for it: nothing is heard within this turn of the loop
-        future.add_done_callback(partial(self._answered, goal))
+        node, now = self._backend.node, real_monotonic()
+        if self._client is None or self._client.srv_type is not NavigateTo:  # built anew, it is another one
+            self.close()
+            self._client = node.create_client(NavigateTo, SERVICE)
+            self._found_by = now + (DISCOVERY if self._backend.clock is None else 0)
+        if self._client.service_is_ready():
+            goal.state = "on its way"
+            self._asked[goal.number] = future = self._client.call_async(request)
+            # after the request, which need not wait for it: nothing is heard within this turn of the loop
+            self._servers = [name for name, _ in servers(node, SERVICE)]
+            self._ends = self._rosout_ends()
+            self._log = self._log or node.create_subscription(Log, "/rosout", self._hear, 1000)
+            future.add_done_callback(partial(self._answered, goal))
+        elif now >= self._found_by:
+            by_hand = "ros2 run robot_controller navigator"
+            how = f'Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") or {by_hand} &'
+            if self._backend.clock is None:
+                how = f"Start the navigator in a terminal: {by_hand}"
+            self._finish(goal, "not sent", f"No node answers {SERVICE}. {how}")
 
-    def _answered(self, goal: Goal, future: Any) -> None:
+    def _answered(self, goal: Goal, future: Future) -> None:
         if self._asked.pop(goal.number, None) is None:
             return
         try:
@@ -184,16 +192,6 @@ class GoalClient:
         self._finish(goal, state, f"success: {response.success}, time_taken: {response.time_taken:.1f} s")
         self._explain()
 
-    def _explain(self) -> None:
-        """Give the goals that failed the navigator's own words; these come a little after its answer."""
-        for number, goal in list(self._unexplained.items()):
-            assert goal.ended is not None
-            reason = self.server.why(goal.sent, goal.ended, last=goal.state == "not reached")
-            if reason:
-                del self._unexplained[number]
-                goal.answer = f"{reason} ({goal.answer})"
-                self._changed(goal)
-
     def _finish(self, goal: Goal, state: str, answer: str) -> None:
         goal.state, goal.answer, goal.ended = state, answer, self._backend.now
         self._changed(goal)
@@ -203,61 +201,34 @@ class GoalClient:
         if not self._wanted and not any(goal.waits for goal in self.goals):
             self.close()
 
-
-class ServerWatcher:
-    """Watches the node that offers one service: whether it is still there, and its warnings; `said()` is called at each."""
-
-    def __init__(self, backend: Backend, service: str, said: Callable[[], None]) -> None:
-        self._backend, self._service, self._said = backend, service, said
-        self._subscription: Subscription | None = None
-        self._names: list[str] = []
-        self._ends: set[tuple[int, ...]] = set()
-        self._warnings: deque[tuple[float, str]] = deque(maxlen=1000)
-
-    def listen(self) -> None:
-        """Notice which node offers the service now, and listen to its warnings."""
-        self._names = [name for name, _ in servers(self._backend.node, self._service)]
-        self._ends = self._rosout_ends()
-        if self._subscription is None:
-            self._subscription = self._backend.node.create_subscription(Log, "/rosout", self._hear, 1000)
-
-    def close(self) -> None:
-        """Listen no more."""
-        if self._subscription is not None:
-            self._backend.node.destroy_subscription(self._subscription)
-            self._subscription = None
-
-    def is_there(self) -> bool:
-        """Whether it is the one that was there when `listen` was called: started again, it has forgotten all calls."""
-        return bool(servers(self._backend.node, self._service)) and self._ends <= self._rosout_ends()
-
-    def why(self, called: float, answered: float, *, last: bool) -> str:
-        """What it warned of between a call and its answer (robot time, s), or "". A warning is given out once.
-
-        Of several, one about a goal is preferred; then the first, or the `last`.
-        """
-        found = [each for each in self._warnings if called - SLACK <= each[0] <= answered + SLACK]
-        found = [each for each in found if "goal" in each[1].lower()] or found
-        if not found:
-            return ""
-        chosen = found[-1 if last else 0]
-        self._warnings.remove(chosen)
-        # without "Goal refused:" in front, since the state says that already; with a capital and a full stop
-        head, colon, rest = chosen[1].partition(": ")
-        text = rest if colon and head.lower().startswith("goal") else chosen[1]
-        return f"{text[:1].upper()}{text[1:]}".rstrip(".") + "."
-
-    def _hear(self, message: Any) -> None:
-        names = [name.strip("/").replace("/", ".") for name in self._names]
+    def _hear(self, message: Log) -> None:
+        names = [name.strip("/").replace("/", ".") for name in self._servers]
         if message.level >= WARNING and any(f"{message.name}.".startswith(f"{name}.") for name in names):
-            stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
+            stamp = message.stamp.sec * NANOSECONDS + message.stamp.nanosec
             self._warnings.append((self._backend.recorder.seconds(stamp), message.msg))
-            self._said()
+            self._explain()
+
+    def _explain(self) -> None:
+        """Give the goals that failed the navigator's own words; these come a little after its answer.
+
+        Of several warnings between a call and its answer, one about a goal is preferred; then the first, or, after a drive,
+        the last. Each is given out once.
+        """
+        for number, goal in list(self._unexplained.items()):
+            assert goal.ended is not None
+            said = [each for each in self._warnings if goal.sent - SLACK <= each[0] <= goal.ended + SLACK]
+            said = [each for each in said if "goal" in each[1].lower()] or said
+            if not said:
+                continue
+            chosen = said[-1 if goal.state == "not reached" else 0]
+            self._warnings.remove(chosen)
+            del self._unexplained[number]
+            # without "Goal refused:" in front, since the state says that already; with a capital and a full stop
+            text = re.sub(r"^goal[^:]*: ", "", chosen[1], flags=re.IGNORECASE)
+            goal.answer = f"{text[:1].upper()}{text[1:]}".rstrip(".") + f". ({goal.answer})"
+            self._changed(goal)
 
     def _rosout_ends(self) -> set[tuple[int, ...]]:
-        """What tells this very node from the next one of its name: the end with which it publishes its log."""
-        return {
-            tuple(end.endpoint_gid)
-            for end in self._backend.node.get_publishers_info_by_topic("/rosout")
-            if owner(end) in self._names
-        }
+        """The ends with which the nodes that answer publish their logs."""
+        ends = self._backend.node.get_publishers_info_by_topic("/rosout")
+        return {tuple(end.endpoint_gid) for end in ends if owner(end) in self._servers}

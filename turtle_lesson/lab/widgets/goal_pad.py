@@ -95,11 +95,7 @@ class GoalPad(LiveWidget):
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
         self._trail = Trail(SPACING, TAIL, KEPT)
-        self._changes = 0
         self._trail_end: tuple[float, ...] = ()
-        self._pose_shown: tuple[float, ...] | None = None
-        self._scan_drawn: Any = None
-        self._obstacles_shown: Any = None
         self.desk = GoalClient(backend, self._goal_changed)
         self._goal_news = False
         super().__init__(backend, panels=list(self.PANELS), **traits)
@@ -141,35 +137,24 @@ class GoalPad(LiveWidget):
     def _show_map(self) -> None:
         recorder = self.backend.recorder
         pose = recorder.poses.last()
-        if pose != self._pose_shown:
-            self._pose_shown = pose
+        if self.is_new("pose", pose):
             self.pose = pack(pose[1:] or [math.nan] * 4)
         # whether the turtle is so far from the trail that a line to it would be seen to be wrong
         jumped = bool(pose and self._trail_end) and math.dist(pose[1:3], self._trail_end[1:3]) > JUMP
         if (self.due("trail", TRAIL_RATE) or jumped) and self._trail.follow(recorder.poses):
-            if self._trail.changes != self._changes:
-                self._changes = self._trail.changes
+            if self.is_new("trail", self._trail.changes):
                 pieces = [np.concatenate([BREAK, piece]) for piece in self._trail.old]
                 self.trail = b"".join(map(pack, pieces))
             self.tail = pack(np.concatenate([BREAK, self._trail.tip[:-1]]))  # the browser joins it to the turtle
             self._trail_end = pose
-        self._show_scan()
-        obstacles = self.backend.board.obstacles
-        if obstacles != self._obstacles_shown:
-            self._obstacles_shown = obstacles
-            self.obstacles = [as_state(each) for each in obstacles]
-
-    def _show_scan(self) -> None:
-        recorder = self.backend.recorder
-        scan = recorder.last_scan
-        if scan is None:
-            return
-        if self.backend.now - recorder.seconds(recorder.scans.last()[0]) > STALE:
+        scanned = recorder.scans.last()
+        if scanned and self.backend.now - recorder.seconds(scanned[0]) > STALE:
             self.scanned_from = b""
-        elif scan is not self._scan_drawn:
-            self._scan_drawn = scan
+        elif (scan := recorder.last_scan) is not None and self.is_new("scan", scanned):
             self.scan = pack([scan.angle_min, scan.angle_increment, scan.range_max, *scan.ranges])
             self.scanned_from = pack(recorder.pose_at_scan() or [])
+        if self.is_new("obstacles", self.backend.board.obstacles):
+            self.obstacles = [as_state(each) for each in self.backend.board.obstacles]
 
     # -- clock -------------------------------------------------------------------------------------------------------
 

@@ -93,6 +93,7 @@ class LiveWidget(anywidget.AnyWidget):
         self.backend = backend
         self._esm, self._css = script(*self.SCRIPTS), styles(*self.STYLES)
         self._paces: dict[str, float] = {}
+        self._shown: dict[str, object] = {}
         self._views: dict[str, float] = {}  # when each gave its last sign of life
         self._is_open = False
         self._stop_ticking: Callable[[], object] = lambda: None
@@ -143,6 +144,13 @@ class LiveWidget(anywidget.AnyWidget):
         if now < self._paces.get(what, -1.0):
             return False
         self._paces[what] = now + 1 / hertz
+        return True
+
+    def is_new(self, what: str, value: object) -> bool:
+        """Whether a value has changed since it was last asked about, so that it has to be shown again."""
+        if what in self._shown and self._shown[what] == value:
+            return False
+        self._shown[what] = value
         return True
 
     @property

@@ -6,6 +6,7 @@ attributes in capitals), so it works alike with the simulated ones and with the 
 
 from __future__ import annotations
 
+import importlib
 import math
 import re
 from collections.abc import Callable, Iterator
@@ -13,7 +14,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from rosidl_runtime_py.utilities import get_interface
 
 from ...ros.idl.checks import FLOAT_BOUNDS
 from ...ros.idl.names import integer_bounds
@@ -110,16 +110,22 @@ def read_number(text: str, base: str) -> float:
 
 
 def find_class(type_name: str) -> Any:
-    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist" or "turtlesim/srv/Spawn".
+    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist", "turtlesim/srv/Spawn" or of an action's feedback.
 
     Raises ValueError where it cannot be imported, with what to try.
     """
+    package, _, rest = type_name.partition("/")
+    folder, _, name = rest.rpartition("/")
     try:
-        return get_interface(type_name if type_name.count("/") > 1 else type_name.replace("/", "/msg/"))
+        if "_" in name and folder in ("", "action"):  # "X_Feedback" is X.Feedback, "X_FeedbackMessage" is in X.Impl
+            action_name, _, part = name.partition("_")
+            action = getattr(importlib.import_module(f"{package}.action"), action_name)
+            return getattr(action, part) if hasattr(action, part) else getattr(action.Impl, part)
+        return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
     except (ImportError, AttributeError):
         raise ValueError(
             f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
-            f"colcon build --packages-select {type_name.partition('/')[0]}, then source install/setup.bash"
+            f"colcon build --packages-select {package}, then source install/setup.bash"
         ) from None
 
 

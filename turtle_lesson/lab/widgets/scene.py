@@ -71,7 +71,6 @@ class Scene(LiveWidget):
 
     def __init__(self, backend: Backend) -> None:
         self._trail = Trail()
-        self._drawn: dict[str, Any] = {}
         super().__init__(backend, bundle=viewer_bundle(), stage=scene_commands.stage())
         self.tick()
 
@@ -109,23 +108,22 @@ class Scene(LiveWidget):
     def tick(self) -> None:
         recorder = self.backend.recorder
         pose = recorder.pose()
-        if pose is not None and self._is_new("turtle", pose):
+        if pose is not None and self.is_new("turtle", pose):
             self.turtle = scene_commands.turtle_at(*pose)
         if self.due("trail", TRAIL_RATE) and self._trail.follow(recorder.poses):
-            if self._is_new("trail", self._trail.changes):
+            if self.is_new("trail", self._trail.changes):
                 self.trail = scene_commands.trail("lab/trail", self._trail.old)
             self.tip = scene_commands.trail("lab/tip", [self._trail.tip])
-        scan = recorder.last_scan
-        if self._drawn.get("scan") is not scan and (scanned_from := recorder.pose_at_scan()) is not None:
-            self._drawn["scan"] = scan
-            self.scan = scene_commands.scan(scan, *scanned_from)
+        scanned_from = recorder.pose_at_scan()
+        if scanned_from is not None and self.is_new("scan", recorder.scans.last()):
+            self.scan = scene_commands.scan(recorder.last_scan, *scanned_from)
         standing = list(recorder.obstacles.values())
-        if self._is_new("obstacles", standing):
+        if self.is_new("obstacles", standing):
             self.obstacles = scene_commands.obstacles(standing)
         goal = self._current_goal()
-        if self._is_new("goal", None if goal is None else (goal.x, goal.y, goal.theta, goal.state)):
+        if self.is_new("goal", None if goal is None else (goal.x, goal.y, goal.theta, goal.state)):
             self.goal = scene_commands.goal(goal)
-        if goal is not None and self._is_new("news", (goal.sent, goal.state)):
+        if goal is not None and self.is_new("news", (goal.sent, goal.state)):
             self.words = f"Goal {point(goal.x, goal.y)} m: {goal.state}."
         if self.due("description", DESCRIPTION_RATE):
             self.description = brief(recorder, goal)
@@ -134,13 +132,6 @@ class Scene(LiveWidget):
         """The newest goal from this page, unless the navigator did not take it."""
         goals = [goal for goal in goals_from(self.backend) if goal.state in ("on its way", "reached")]
         return goals[-1] if goals else None
-
-    def _is_new(self, name: str, value: object) -> bool:
-        """Whether a part has to be drawn again; the first time it has."""
-        if name in self._drawn and self._drawn[name] == value:
-            return False
-        self._drawn[name] = value
-        return True
 
 
 def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
