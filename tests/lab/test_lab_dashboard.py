@@ -236,11 +236,10 @@ def test_a_topic_is_measured_since_its_last_pause() -> None:
     assert frequency(stamps, 4 * SECOND, pause=1.0) == pytest.approx(10.0)
 
 
-def test_a_topic_fades_and_then_is_silent() -> None:
+def test_a_topic_pauses_and_then_is_silent() -> None:
     stamps = regular(10, 1.0)
     end = int(stamps[-1])
     assert frequency(stamps, end + SECOND // 10, pause=1.0) == pytest.approx(10.0)
-    assert 4 < frequency(stamps, end + 9 * SECOND // 10, pause=1.0) < 8
     assert frequency(stamps, end + 2 * SECOND, pause=1.0) == 0.0
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from turtle_lesson.lab.path import plot_path
-from turtle_lesson.lab.recorder import Recorder, with_time
+from turtle_lesson.lab.recorder import Recorder
 from turtle_lesson.lab.status_and_scan import plot_scan, plot_status
 from turtle_lesson.ros.idl.registry import registry
 from turtle_lesson.ros.runtime.world import World, open_world
@@ -256,14 +256,3 @@ def test_a_closed_recorder_hears_no_more_but_keeps_what_it_heard(bench):
     assert len(bench.recorder.poses) == 10
     channel = bench.recorder._channels["/turtle1/pose"]
     assert not channel.listens
-
-
-def test_an_rclpy_that_tells_no_times_is_asked_for_the_clock(bench, monkeypatch):
-    from rclpy.subscription import Subscription
-
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: object())
-    monkeypatch.delattr(Subscription, "CallbackType")
-    heard = []
-    hear = with_time(bench.eye, lambda message, info: heard.append((message, info["source_timestamp"])))
-    hear("hello")
-    assert heard == [("hello", pytest.approx(EPOCH, abs=100_000))]

@@ -5,7 +5,7 @@ import math
 import pytest
 from lab_fakes import recording, scan, see
 
-from turtle_lesson.lab.status_and_scan import nice_step, plot_scan, reach_of, read_beams
+from turtle_lesson.lab.status_and_scan import plot_scan, reach_of, read_beams
 
 
 def ranges(**seen):
@@ -84,7 +84,14 @@ def test_a_useless_maximum_does_not_set_the_scale(most):
 
 
 def test_rings_are_at_round_distances():
-    assert [nice_step(reach) for reach in (10.0, 1.0, 3.5, 30.0)] == [2.0, 0.2, 1.0, 10.0]
+    (axes,) = plot_scan(see(recording(), scan([5.0] * 181))).figure.axes
+    assert [each.get_text() for each in axes.texts if each.get_text().endswith(" m")] == [
+        "2 m",
+        "4 m",
+        "6 m",
+        "8 m",
+        "10 m",
+    ]
 
 
 def test_nothing_heard_yet():

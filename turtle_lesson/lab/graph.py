@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -52,14 +51,13 @@ def read_system(node: Node) -> list[NodeView]:
         if node_name in found:
             found[node_name].copies += 1
         elif not is_hidden(node_name):
-            with suppress(NodeNameNonExistentError):  # gone since the list was made
-                found[node_name] = NodeView(
-                    node_name,
-                    publishes=_visible(node.get_publisher_names_and_types_by_node(name, namespace)),
-                    hears=_visible(node.get_subscriber_names_and_types_by_node(name, namespace)),
-                    offers=_visible(node.get_service_names_and_types_by_node(name, namespace)),
-                    calls=_visible(node.get_client_names_and_types_by_node(name, namespace)),
-                )
+            found[node_name] = NodeView(
+                node_name,
+                publishes=_visible(of_node(node, "get_publisher_names_and_types_by_node", node_name)),
+                hears=_visible(of_node(node, "get_subscriber_names_and_types_by_node", node_name)),
+                offers=_visible(of_node(node, "get_service_names_and_types_by_node", node_name)),
+                calls=_visible(of_node(node, "get_client_names_and_types_by_node", node_name)),
+            )
     return [found[name] for name in sorted(found)]
 
 

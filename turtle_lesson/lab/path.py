@@ -274,7 +274,8 @@ def _draw_start(axes: Axes, places: np.ndarray, trail: np.ndarray, signs: np.nda
         (np.abs(trail - place) < LABEL).all(axis=1).sum() + 20 * (np.hypot(*(signs - place).T) < NEAR).sum()
         for place in free
     ]
-    axes.text(*free[np.argmin(covered)], "start", zorder=3.5, **label)
+    across, up = free[np.argmin(covered)]
+    axes.text(across, up, "start", zorder=3.5, **label)
 
 
 class Goal(NamedTuple):

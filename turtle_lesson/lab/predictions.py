@@ -58,7 +58,7 @@ class Number:
     name: str = "number"
 
     def read(self, value: Any) -> float:
-        """A finite number; what was typed may have a unit, a decimal comma and a true minus sign."""
+        """A finite number; what was typed may have its unit, a decimal comma and a true minus sign."""
         asked = f"A number{f' in {self.unit}' if self.unit else ''} is asked for, got {value!r}"
         if not isinstance(value, str):
             if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
@@ -67,10 +67,10 @@ class Number:
         found = TYPED.fullmatch(value.replace("−", "-"))
         if found is None or not math.isfinite(given := float(found[1].replace(",", "."))):
             raise ValueError(f"{asked}. Write it like 2.5{f' or 2.5 {self.unit}' if self.unit else ''}.")
-        factor = _factor(found[2], self.unit)
-        if factor is None:
+        names = {each.casefold().removesuffix("s") for each in ("", self.unit, *SPELT.get(self.unit, ()))}
+        if found[2].casefold().removesuffix("s") not in names:
             raise ValueError(f"{asked}: {found[2]!r} is not understood. Write only the number.")
-        return given * factor
+        return given
 
     def shown(self, value: Any) -> str:
         """The number, with at most three decimals, and its unit."""
@@ -117,24 +117,8 @@ class Point:
 Kind = Choice | Number | Point
 """What is guessed: it reads values, says them in words, and compares two."""
 
-UNITS: dict[str, dict[str, float]] = {
-    "s": {"sec": 1, "second": 1, "ms": 0.001, "millisecond": 0.001, "min": 60, "minute": 60},
-    "m": {"metre": 1, "meter": 1, "cm": 0.01, "centimetre": 0.01, "centimeter": 0.01, "mm": 0.001},
-    "hz": {"hertz": 1, "/s": 1, "1/s": 1, "per second": 1, "times a second": 1, "khz": 1000},
-    "%": {"percent": 1, "per cent": 1},
-    "m/s": {"metres per second": 1, "meters per second": 1, "cm/s": 0.01},
-    "°": {"degree": 1, "deg": 1},
-    "rad": {"radian": 1},
-}
-"""What may be written for a unit, or in place of it, and by how much the number is then multiplied."""
-
-
-def _factor(written: str, unit: str) -> float | None:
-    """The factor that turns a number in the written unit into the unit asked for; None for a unit that does not fit."""
-    known = {"": 1.0, unit.casefold(): 1.0} | UNITS.get(unit.casefold(), {})
-    name = written.casefold().rstrip(".")
-    singular = {each.removesuffix("s"): factor for each, factor in known.items() if len(each) > 2}
-    return known.get(name, singular.get(name.removesuffix("s")) if len(name) > 2 else None)
+SPELT = {"s": ("second",), "m": ("metre", "meter"), "Hz": ("times a second",), "%": ("percent",), "°": ("degree",)}
+"""How units may be written beside their signs, in the singular."""
 
 
 def kind_of(choices: Sequence[str], unit: str | None, on_map: bool) -> Kind:

@@ -8,7 +8,6 @@ while a simulator listens to it).
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import math
 from collections.abc import Callable, Iterable
 from contextlib import suppress
@@ -198,10 +197,12 @@ class Channel:
         self.close()
         if message_type is not None:
             self._message_type = message_type
-            listener = with_time(self.node, self.make_listener(message_type))
-            quality = self._quality()
+            # best effort matches every publisher; only a latched topic has to be reliable to give its past
+            quality = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
+            if self.latched:
+                quality = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             self._subscription = self.node.create_subscription(
-                message_type, self.topic, listener, quality, raw=self.raw
+                message_type, self.topic, self.make_listener(message_type), quality, raw=self.raw
             )
 
     def close(self) -> None:
@@ -241,27 +242,6 @@ class Channel:
             return getattr(importlib.import_module(f"{package}.msg"), name, None)
         except ImportError:
             return None
-
-    def _quality(self) -> Any:
-        """Best effort matches every publisher; only a latched topic has to be reliable to give its past."""
-        if self.latched:
-            return QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        return QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
-
-
-def with_time(node: Node, listener: Listener) -> Callable[..., None]:
-    """Return a callback for any rclpy. Since Iron it tells a message's time; Humble's own does not yet.
-
-    There the node's clock is read, which costs more, and tells when a message was handled, not when it was sent. The
-    lab's node on a robot sees to that itself (see session/robot_backend.py).
-    """
-    if getattr(node, "hears_times", False):
-        return listener
-    compiled = importlib.util.find_spec("rclpy._rclpy_pybind11") is not None
-    if hasattr(Subscription, "CallbackType") or not compiled:
-        return listener
-    clock = node.get_clock()
-    return lambda message: listener(message, {"source_timestamp": clock.now().nanoseconds})
 
 
 # visualization_msgs/msg/Marker: its types and actions

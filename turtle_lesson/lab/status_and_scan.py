@@ -274,11 +274,13 @@ def reach_of(beams: Beams) -> float:
 
 def _draw_rings(axes: Axes, reach: float, whole: bool) -> None:
     """Draw range rings with their metres, and rays with their angles, over half a circle or a whole one."""
+    from matplotlib.ticker import MaxNLocator
+
     label: dict[str, Any] = {"fontsize": 7.5, "color": drawing.INK, "va": "center"}
     side = math.pi if whole else math.pi / 2
     arc = np.linspace(-side, side, 181)
-    step = nice_step(reach)
-    for ring in [*np.arange(step, reach - 0.3 * step, step), reach]:
+    steps = np.asarray(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]).tick_values(0.0, reach))
+    for ring in [*steps[(steps > 0) & (steps < reach - 0.3 * steps[1])], reach]:
         colour = drawing.INK if ring == reach else drawing.EDGE
         beside = np.where(np.abs(arc) * ring < 0.045 * reach, np.nan, arc)  # room for the metres
         axes.plot(*_polar(beside, np.full(len(arc), ring)), color=colour, linewidth=0.8, zorder=2)
@@ -309,12 +311,6 @@ def _draw_beams(axes: Axes, beams: Beams, reach: float) -> None:
     axes.plot(xs[beams.sees], ys[beams.sees], color=drawing.VERMILLION, zorder=6, **dots)
     ring: dict[str, Any] = {"marker": "o", "markersize": 10, "markerfacecolor": "none", "markeredgewidth": 1.2}
     axes.plot(xs[nearest], ys[nearest], markeredgecolor=drawing.INK, zorder=7, **ring)
-
-
-def nice_step(reach: float) -> float:
-    """Return a distance between rings: 1, 2 or 5 times a power of ten, for three to five of them."""
-    power = 10.0 ** math.floor(math.log10(reach / 5.5))
-    return next(power * factor for factor in (1, 2, 5, 10) if power * factor >= reach / 5.5)
 
 
 def _polar(angles: Any, ranges: Any) -> tuple[Any, Any]:

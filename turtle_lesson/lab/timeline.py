@@ -81,9 +81,8 @@ def _draw(lanes: list[Lane], window: Window) -> Figure:
     # what the signs mean, of those that are there, beneath the axes
     signs = {label: sign for sign, label in zip(*axes.get_legend_handles_labels(), strict=True)}
     look: dict[str, Any] = {"frameon": False, "fontsize": 8.0, "handlelength": 1.6, "columnspacing": 1.3}
-    if signs:
-        place: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.02, 0.0), "ncols": len(signs)}
-        figure.legend(signs.values(), signs.keys(), **place, **look, markerscale=0.6)
+    corner: dict[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.02, 0.0), "ncols": max(len(signs), 1)}
+    figure.legend(signs.values(), signs.keys(), **corner, **look, markerscale=0.6)
     return figure
 
 
@@ -97,11 +96,18 @@ def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
         axes.plot(marks, [place] * len(marks), color=colour, linestyle="none", zorder=3, label=label, **tick)
     if len(lane.bars):
         spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
-        label, look = ("awaits, thread free", AWAITS) if lane.awaits else ("holds its thread", HOLDS)
-        axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, label=label, **look)
+        label = "awaits, thread free" if lane.awaits else "holds its thread"
+        axes.broken_barh(
+            spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, label=label, **AWAITS if lane.awaits else HOLDS
+        )
     dots: dict[str, Any] = {"linewidth": 1.6, "linestyle": (0, (1.2, 1.2)), "marker": "o", "markersize": 3.0}
     for wait in lane.waits / NANOSECONDS:  # beneath the bars, for it may be another run that lasts meanwhile
-        look = {"color": drawing.VERMILLION, "markevery": [0], "zorder": 2, "label": "ready, had to wait"}
+        look: dict[str, Any] = {
+            "color": drawing.VERMILLION,
+            "markevery": [0],
+            "zorder": 2,
+            "label": "ready, had to wait",
+        }
         axes.plot(wait, [place + 0.37] * 2, **look, **dots)
 
 

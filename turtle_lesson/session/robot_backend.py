@@ -152,12 +152,10 @@ COUNTS = [name for name in dir(Node) if name.startswith("count_")]
 class LabNode(Node):
     """The lab's hidden node, `/_lab`: it offers no parameters and writes no log.
 
+    Callbacks with two arguments are told a message's time, whatever the rclpy (that of Humble tells none).
     Nothing is called after it was destroyed, although its thread may have taken it already: the code that destroys and
     creates in the loop sees what a node that is spun in the loop would show.
     """
-
-    hears_times = True
-    """Callbacks with two arguments are told a message's time, whatever the rclpy (see lab/recorder.py)."""
 
     def __init__(self, context: Context, hop: Action) -> None:
         self._lab_hop = hop  # called with an action and its arguments, has the loop call that action

@@ -23,7 +23,6 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
 from ..graph import node_names, of_node, others, owner, servers
-from ..recorder import with_time
 from ..recording import NANOSECONDS
 from ..words import listed, number
 from .results import ENDLESS, CannotLook, OutOfTime, Stopped, in_words, never_returned, unreturned
@@ -296,7 +295,7 @@ class Probe:
             if len(heard) < MOST_HEARD:
                 heard.append(Heard((info["source_timestamp"] - self._origin) / NANOSECONDS, message))
 
-        self._subscribe(interface(type_name), topic, with_time(self.node, hear))
+        self._subscribe(interface(type_name), topic, hear)
         return heard
 
     def _subscribe(self, message_class: Any, topic: str, callback: Callable[..., None]) -> None:

@@ -335,8 +335,7 @@ def frequency(stamps: np.ndarray, now: int, pause: float = RATE_WINDOW) -> float
     if not steps:
         return math.nan
     span = int(recent[-1] - recent[0]) / NANOSECONDS
-    overdue = max(0.0, silence - 2 * span / steps)
-    return steps / (span + overdue) if span + overdue > 0 else math.nan
+    return steps / span if span > 0 else math.nan
 
 
 def verdict(hertz: float, expected: float) -> str:

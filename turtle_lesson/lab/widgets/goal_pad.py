@@ -247,10 +247,7 @@ class GoalPad(LiveWidget):
 
     def _free_place(self) -> tuple[float, float]:
         """A place away from the turtle and the obstacles, as near to the middle as can be."""
-        taken = [
-            (each.x, each.y, each.radius if isinstance(each, Circle) else math.hypot(each.width, each.height) / 2)
-            for each in self.backend.board.obstacles
-        ]
+        taken = [(each.x, each.y, math.hypot(each.width, each.height) / 2) for each in self.backend.board.obstacles]
         if pose := self.backend.recorder.pose():
             taken.append((*pose[:2], ROOM))
         steps = [0.5 + 0.5 * step for step in range(21)]

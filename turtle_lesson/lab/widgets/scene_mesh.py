@@ -334,15 +334,10 @@ def goal_flag(x: float, y: float, reached: bool) -> Mesh:
     """The flag in the middle of the ring; beside it when the turtle stands there."""
     aside = (0.6 if y < WORLD - 0.8 else -0.6) if reached else 0.0
     foot, top = ring((0, 0, 0), 0.022, 0.022, 8), ring((0, 0, 1.12), 0.018, 0.018, 8)
-    return joined([loft([foot, top], POLE), polygon(top, POLE), _pennant()]).moved(placed(x, y + aside))
-
-
-def _pennant() -> Mesh:
-    """The cloth, in gentle waves, the same from both sides."""
-    along = np.linspace(0.0, 0.55, 6)
-    wave = 0.045 * np.sin(along / 0.55 * 1.5 * math.pi)
-    drop = 0.17 * (1 - along / 0.55)
-    upper = np.column_stack([along, wave, 0.93 + drop])
-    lower = np.column_stack([along, wave, 0.93 - drop])
-    corners = [[lower[at], lower[at + 1], upper[at + 1], upper[at]] for at in range(len(along) - 1)]
-    return joined(polygon(each, drawing.VERMILLION) for each in corners)
+    return joined(
+        [
+            loft([foot, top], POLE),
+            polygon(top, POLE),
+            polygon([(0, 0, 0.76), (0.55, 0, 0.93), (0, 0, 1.1)], drawing.VERMILLION),
+        ]
+    ).moved(placed(x, y + aside))
