@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from statistics import fmean
 from typing import TYPE_CHECKING
 
 from rclpy.node import Node, NodeNameNonExistentError
@@ -276,7 +277,7 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
     for _ in range(8):
         for boxes in columns.values():
             wanted = {
-                box: _mean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
+                box: fmean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
                 for box in boxes
             }
             boxes.sort(key=wanted.__getitem__)
@@ -289,17 +290,13 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
         bottom = max(bottom, box.middle + box.height / 2)
 
 
-def _mean(values: list[float]) -> float:
-    return math.fsum(values) / len(values)
-
-
 def _stack(boxes: list[Box], wanted: list[float]) -> None:
     """Put boxes below one another, none upon another, on average where they are wanted."""
     bottom = -math.inf
     for box, middle in zip(boxes, wanted, strict=True):
         box.middle = max(middle, bottom + GAP + box.height / 2)
         bottom = box.middle + box.height / 2
-    off = _mean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
+    off = fmean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
     for box in boxes:
         box.middle -= off
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import html
 import inspect
 import linecache
@@ -137,44 +136,30 @@ def code_of(what: Any) -> dict[str, str]:
 
 
 def _texts(what: Any) -> dict[str, str]:
-    if isinstance(what, Path):
-        return _files(what)
-    if isinstance(what, str):
-        is_path = "\n" not in what and len(what) < 300 and (Path(what).exists() or what.endswith(SUFFIXES))
-        return _files(Path(what)) if is_path else {"code": f"{what.strip()}\n"}
-    target = what if isinstance(what, (type, FunctionType)) else getattr(what, "__func__", type(what))
-    return {target.__qualname__: _source(target)}
-
-
-def _files(path: Path) -> dict[str, str]:
+    if isinstance(what, str) and "\n" in what:
+        return {"code": f"{what.strip()}\n"}
+    if not isinstance(what, (str, Path)):
+        target = what if isinstance(what, (type, FunctionType)) else getattr(what, "__func__", type(what))
+        return {target.__qualname__: _source(target)}
+    path = Path(what)
     if not path.exists():
         raise ValueError(f"there is no file {path} here ({Path.cwd().name}/): look with ls, or give the class itself")
-    if path.is_file():
-        return {path.name: _read(path)}
     made = {"build", "install", "log", "__pycache__"}
-    files = sorted(file for file in path.rglob("*") if file.is_file() and file.suffix in SUFFIXES)
-    names = {file: file.relative_to(path) for file in files}
-    return {name.as_posix(): _read(file) for file, name in names.items() if not made & set(name.parts)}
-
-
-def _read(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        raise ValueError(f"{path.name} is not a text file") from None
+    files = {path.name: path} if path.is_file() else {}
+    for file in sorted(path.rglob("*")):
+        if file.suffix in SUFFIXES and not made & set(file.relative_to(path).parts):
+            files[file.relative_to(path).as_posix()] = file
+    return {name: file.read_text(encoding="utf-8", errors="replace") for name, file in files.items()}
 
 
 def _source(target: Any) -> str:
     """The source of a function or class, also of a class from a cell, which Python 3.11's inspect does not find."""
-    methods = [getattr(value, "__func__", value) for value in vars(target).values()] if isinstance(target, type) else []
-    for method in methods:
-        if isinstance(method, FunctionType):
-            text = "".join(linecache.getlines(method.__code__.co_filename))
-            with suppress(SyntaxError):
-                for statement in ast.walk(ast.parse(text)):
-                    if isinstance(statement, ast.ClassDef) and statement.name == target.__name__:
-                        return f"{ast.get_source_segment(text, statement)}\n"
-    try:
+    with suppress(OSError, TypeError):
         return inspect.getsource(target)
-    except (OSError, TypeError):
-        raise ValueError(f"the source of {target!r} cannot be found: give the file, or the text itself") from None
+    for method in vars(target).values():
+        code = getattr(getattr(method, "__func__", method), "__code__", None)
+        lines = linecache.getlines(code.co_filename) if code is not None else []
+        for at, line in enumerate(lines):
+            if re.match(rf"class {target.__name__}\b", line):
+                return "".join(inspect.getblock(lines[at:]))
+    raise ValueError(f"the source of {target!r} cannot be found: give the file, or the text itself")

@@ -17,13 +17,6 @@ from .message_fields import Group, Part, Rows, Single, find_class, find_part
 if TYPE_CHECKING:
     from rclpy.timer import Timer
 
-FASTEST = 100.0
-"""How many messages a second a form publishes at most."""
-
-LONGEST = 3600.0
-"""How long, in s of robot time, a form waits for an answer at most."""
-
-
 SomePart = TypeVar("SomePart", bound=Part)
 
 
@@ -105,11 +98,11 @@ class Form(LiveWidget):
     def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:
         """Set how often to publish (messages a second), how long to wait for an answer (s)."""
         if rate is not None:
-            self.rate = within("rate", rate, 0.01, FASTEST)
+            self.rate = within("rate", rate, 0.01, 100)
             if self._timer is not None:
                 self._publish_again_and_again()
         if timeout is not None:
-            self.timeout = within("waiting time", timeout, 0.1, LONGEST)
+            self.timeout = within("waiting time", timeout, 0.1, 3600)
         self._bring_up_to_date()
 
     def _part(self, path: str, kind: type[SomePart], what: str) -> SomePart:

@@ -22,20 +22,14 @@ SPACING, KEPT, TAIL = 0.05, 600, 60
 """Metres from one point of the trail to the next, how many points are kept (30 m of way), and how many may be new until the
 whole trail is sent again."""
 
-TRAIL_RATE = 10.0
-"""How often, times a second at most, the trail is sent again; the browser joins its end to the turtle by a line."""
-
 BREAK = np.full((1, 2), np.nan)
 """Where the trail breaks."""
 
 JUMP = 0.3
-"""The trail is sent again at once if that line would be longer than this, m."""
+"""The trail is sent again at once if the line by which the browser joins its end to the turtle would be longer than this, m."""
 
 STALE = 1.5
 """A scan older than this, s of robot time, is not drawn on the map."""
-
-LONGEST_STEP = 1.0
-"""Seconds of robot time that one step may take."""
 
 FASTEST = "max"
 """What the browser calls an infinite rate, which JSON does not know."""
@@ -48,8 +42,6 @@ CIRCLE, BOX = {"radius": 0.5}, {"width": 1.5, "height": 0.5}
 
 ROOM = 0.8
 """A fresh obstacle leaves so much room around it where it can, m."""
-
-MIDDLE = 5.5
 
 
 class GoalPad(LiveWidget):
@@ -141,7 +133,7 @@ class GoalPad(LiveWidget):
             self.pose = pack(pose[1:] or [math.nan] * 4)
         # whether the turtle is so far from the trail that a line to it would be seen to be wrong
         jumped = bool(pose and self._trail_end) and math.dist(pose[1:3], self._trail_end[1:3]) > JUMP
-        if (self.due("trail", TRAIL_RATE) or jumped) and self._trail.follow(recorder.poses):
+        if (self.due("trail", 10) or jumped) and self._trail.follow(recorder.poses):
             if self.is_new("trail", self._trail.changes):
                 pieces = [np.concatenate([BREAK, piece]) for piece in self._trail.old]
                 self.trail = b"".join(map(pack, pieces))
@@ -189,7 +181,7 @@ class GoalPad(LiveWidget):
 
     def do_step(self, seconds: float) -> None:
         """Let a little robot time pass."""
-        lasts = within("step", seconds, 0, LONGEST_STEP)
+        lasts = within("step", seconds, 0, 1)
         if self.backend.clock is not None:
             self.backend.clock.step(lasts)
 
@@ -251,11 +243,12 @@ class GoalPad(LiveWidget):
         if pose := self.backend.recorder.pose():
             taken.append((*pose[:2], ROOM))
         steps = [0.5 + 0.5 * step for step in range(21)]
-        places = sorted(product(steps, steps), key=lambda place: math.dist(place, (MIDDLE, MIDDLE)))
+        middle = (5.5, 5.5)
+        places = sorted(product(steps, steps), key=lambda place: math.dist(place, middle))
         for place in places:
             if all(math.dist(place, (x, y)) > reach + ROOM for x, y, reach in taken):
                 return place
-        return MIDDLE, MIDDLE
+        return middle
 
     # -- goals -------------------------------------------------------------------------------------------------------
 

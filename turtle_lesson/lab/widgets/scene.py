@@ -31,9 +31,6 @@ if TYPE_CHECKING:
     from .scene_page import ScenePage
 
 VIEW_SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
-TRAIL_RATE, DESCRIPTION_RATE = 10.0, 1.0
-"""How often, times a second at most, the trail and the description for screen readers are sent again."""
-
 AROUND, UP = math.radians(-62), math.radians(40)
 """The viewpoint: the direction of the eye, and its height above the horizon, rad."""
 LIGHT = np.array([-0.35, -0.45, 0.82])
@@ -110,7 +107,7 @@ class Scene(LiveWidget):
         pose = recorder.pose()
         if pose is not None and self.is_new("turtle", pose):
             self.turtle = scene_commands.turtle_at(*pose)
-        if self.due("trail", TRAIL_RATE) and self._trail.follow(recorder.poses):
+        if self.due("trail", 10) and self._trail.follow(recorder.poses):
             if self.is_new("trail", self._trail.changes):
                 self.trail = scene_commands.trail("lab/trail", self._trail.old)
             self.tip = scene_commands.trail("lab/tip", [self._trail.tip])
@@ -125,7 +122,7 @@ class Scene(LiveWidget):
             self.goal = scene_commands.goal(goal)
         if goal is not None and self.is_new("news", (goal.sent, goal.state)):
             self.words = f"Goal {point(goal.x, goal.y)} m: {goal.state}."
-        if self.due("description", DESCRIPTION_RATE):
+        if self.due("description", 1):
             self.description = brief(recorder, goal)
 
     def _current_goal(self) -> Goal | None:
