@@ -17,7 +17,6 @@ import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..ros.sim.defer_sigint import defer_sigint
@@ -151,7 +150,7 @@ class Picture:
     """A figure and its exact text: a notebook shows the figure, print and a screen reader give the text.
 
     `text` is one paragraph. `figure` is a matplotlib Figure, or None where there was nothing to draw: then
-    the text says what is missing and what to try.
+    the text says what is missing and what to try. `picture.figure.savefig("path.svg")` writes it to a file.
     """
 
     def __init__(self, text: str, figure: Figure | None = None) -> None:
@@ -198,7 +197,8 @@ class Picture:
         import numpy as np
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-        figure = self._figure()
+        figure = self.figure
+        assert figure is not None
         figure.dpi = DPI * SHARPNESS
         try:
             with applied():
@@ -207,22 +207,6 @@ class Picture:
                 return np.asarray(canvas.buffer_rgba())
         finally:
             figure.dpi = DPI
-
-    def save(self, path: str | Path) -> Path:
-        """Write the figure to a file in the format of its ending (png, svg, pdf); returns the path."""
-        path = Path(path)
-        if path.suffix.lower() == ".png":
-            path.write_bytes(self.png())
-            return path
-        without_date: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
-        with applied():
-            self._figure().savefig(path, metadata=without_date.get(path.suffix.lower()))
-        return path
-
-    def _figure(self) -> Figure:
-        if self.figure is None:
-            raise ValueError(f"there is no figure yet, only a text: {self.text}")
-        return self.figure
 
 
 SHELL, RIM, SKIN, OUTLINE = GREEN, DARK_GREEN, "#8fd0b5", "#0b4636"

@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from statistics import fmean
 from typing import TYPE_CHECKING
 
 from rclpy.node import Node, NodeNameNonExistentError
@@ -109,19 +108,12 @@ def _visible(names_and_types: list[tuple[str, list[str]]]) -> Ends:
     }
 
 
-def topics_of(nodes: list[NodeView]) -> Ends:
-    """All topics of these nodes, sorted, with all types in use there."""
-    return _merged([ends for node in nodes for ends in (node.publishes, node.hears)])
-
-
-def services_of(nodes: list[NodeView]) -> Ends:
-    """All services of these nodes, sorted, with all types in use there."""
-    return _merged([ends for node in nodes for ends in (node.offers, node.calls)])
-
-
-def _merged(several: list[Ends]) -> Ends:
-    names = sorted({name for ends in several for name in ends})
-    return {name: sorted({kind for ends in several for kind in ends.get(name, ())}) for name in names}
+def ends_of(nodes: list[NodeView], *uses: str) -> Ends:
+    """What these nodes use in these ways ("publishes", "hears", …), sorted, with all types in use there."""
+    found: dict[str, set[str]] = {}
+    for name, types in (end for node in nodes for use in uses for end in getattr(node, use).items()):
+        found.setdefault(name, set()).update(types)
+    return {name: sorted(types) for name, types in sorted(found.items())}
 
 
 class GraphPicture:
@@ -155,7 +147,7 @@ def plot_graph(node: Node) -> GraphPicture:
     nodes = read_system(node)
     if not nodes:
         return GraphPicture("No node is running. Start some: ros2 run turtlesim turtlesim_node, or lesson.launch(…).")
-    topics, services = topics_of(nodes), services_of(nodes)
+    topics, services = ends_of(nodes, "publishes", "hears"), ends_of(nodes, "offers", "calls")
     amount = sum(node.copies for node in nodes)
     summary = listed([count(amount, "node"), count(len(topics), "topic"), count(len(services), "service")])
     sentences = [f"The ROS graph has {summary}.", *map(_node_sentence, nodes)]
@@ -247,9 +239,10 @@ def draw_graph(columns: dict[str, list[Box]], arrows: list[Arrow], title: str, d
 
 def _boxes(nodes: list[NodeView]) -> tuple[dict[str, list[Box]], list[Arrow]]:
     """The columns that have boxes, and all arrows. The services of a node that no node calls share one box."""
-    topics = {name: Box(f"t{at}", [name], types) for at, (name, types) in enumerate(topics_of(nodes).items())}
+    every = enumerate(ends_of(nodes, "publishes", "hears").items())
+    topics = {name: Box(f"t{at}", [name], types) for at, (name, types) in every}
     called = {service for node in nodes for service in node.calls}
-    every = enumerate(services_of(nodes).items())
+    every = enumerate(ends_of(nodes, "offers", "calls").items())
     services = {name: Box(f"s{at}", [name], types) for at, (name, types) in every if name in called}
     columns: dict[str, list[Box]] = {"services": list(services.values()), "nodes": [], "topics": list(topics.values())}
     arrows: list[Arrow] = []
@@ -276,10 +269,10 @@ def _arrange(columns: dict[str, list[Box]]) -> None:
         _stack(boxes, [0.0] * len(boxes))
     for _ in range(8):
         for boxes in columns.values():
-            wanted = {
-                box: fmean([arrow.other(box).middle for arrow in box.arrows]) if box.arrows else box.middle
-                for box in boxes
-            }
+            wanted = {box: box.middle for box in boxes}
+            for box in boxes:
+                if box.arrows:
+                    wanted[box] = math.fsum(arrow.other(box).middle for arrow in box.arrows) / len(box.arrows)
             boxes.sort(key=wanted.__getitem__)
             _stack(boxes, [wanted[box] for box in boxes])
     bottom, up = TOP - GAP, -math.inf  # what is connected with nothing else may lie far off: no empty band is left
@@ -296,7 +289,7 @@ def _stack(boxes: list[Box], wanted: list[float]) -> None:
     for box, middle in zip(boxes, wanted, strict=True):
         box.middle = max(middle, bottom + GAP + box.height / 2)
         bottom = box.middle + box.height / 2
-    off = fmean([box.middle - middle for box, middle in zip(boxes, wanted, strict=True)])
+    off = math.fsum(box.middle - middle for box, middle in zip(boxes, wanted, strict=True)) / len(boxes)
     for box in boxes:
         box.middle -= off
 
