@@ -451,7 +451,7 @@ def test_what_another_node_publishes_counts_too(lesson: Lesson) -> None:
     [
         ({"do": "obstacle_change", "number": 0, "radius": -1}, "radius must be a number above zero, in metres, not -1"),
         ({"do": "obstacle_change", "number": 0, "radius": None}, "radius must be a number above zero"),
-        ({"do": "obstacle_change", "number": 0, "width": 1.0}, "A circle has no width; it has x, y, radius."),
+        ({"do": "obstacle_change", "number": 0, "width": 1.0}, "unexpected keyword argument 'width'"),
         ({"do": "obstacle_change", "number": 7, "x": 1.0}, "That obstacle is gone."),
         ({"do": "obstacle_remove", "number": -1}, "That obstacle is gone."),
         ({"do": "world", "name": "moon"}, "there is no world called 'moon'; there are 'empty', 'three pillars'"),

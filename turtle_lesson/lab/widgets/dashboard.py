@@ -127,7 +127,7 @@ class Dashboard(GoalPad):
         if self._rosout is not None and self.due("topics", 1):
             self._follow_topics()
         if self.due("rates", 4):
-            self.rates = [*self._expected_rates(), *self._other_rates()]
+            self._show_rates()
         if self._log_waiting and self.due("log", 5):
             self._add_lines()
 
@@ -209,34 +209,31 @@ class Dashboard(GoalPad):
         """Robot time as the recorder's tables have it, ns."""
         return self.backend.recorder.origin + round(self.backend.now * NANOSECONDS)
 
-    def _expected_rates(self) -> list[dict[str, Any]]:
+    def _show_rates(self) -> None:
         recorder = self.backend.recorder
-        known: list[tuple[str, Table, float]] = [
-            (recorder.pose_topic, recorder.poses, 62.5),
-            (STATUS_TOPIC, recorder.statuses, 10.0),
-            (SCAN_TOPIC, recorder.scans, 5.0),
-            (recorder.command_topic, recorder.commands, 10.0),
+        known = [
+            (recorder.pose_topic, recorder.poses, 62.5, ""),
+            (STATUS_TOPIC, recorder.statuses, 10.0, ""),
+            (SCAN_TOPIC, recorder.scans, 5.0, ""),
+            (recorder.command_topic, recorder.commands, 10.0, ""),
         ]
-        rows = []
-        for topic, table, expected in known:
-            hertz = frequency(table.newest(MOST_MESSAGES)["stamp"], self._now(), PAUSE)
-            state = verdict(hertz, expected)
-            if topic == recorder.command_topic and state == "silent":
-                state = "at rest"  # no goal is driven to, so no command is due
-            elif state == "silent" and self.backend.now < PAUSE:
-                state = "just begun"
-            rows.append(_rate(topic, hertz, expected, state))
-        return rows
+        others = [(topic, table, 0.0, trouble) for topic, (_, table, trouble) in self._heard.items()]
+        if len(recorder.worlds):
+            others.append((OBSTACLE_TOPIC, recorder.worlds, 0.0, ""))
+        self.rates = [self._rate(*row) for row in (*known, *sorted(others, key=itemgetter(0)))]
 
-    def _other_rates(self) -> list[dict[str, Any]]:
-        tables = {topic: (table, trouble) for topic, (_, table, trouble) in self._heard.items()}
-        if len(self.backend.recorder.worlds):
-            tables[OBSTACLE_TOPIC] = self.backend.recorder.worlds, ""
-        rows = []
-        for topic, (table, trouble) in sorted(tables.items()):
-            hertz = frequency(table.newest(MOST_MESSAGES)["stamp"], self._now())
-            rows.append(_rate(topic, hertz, 0.0, "not heard" if trouble else "heard" if hertz else "quiet", trouble))
-        return rows
+    def _rate(self, topic: str, table: Table, expected: float, trouble: str) -> dict[str, Any]:
+        stamps = table.newest(MOST_MESSAGES)["stamp"]
+        hertz = frequency(stamps, self._now(), PAUSE if expected else RATE_WINDOW)
+        state = verdict(hertz, expected)
+        if not expected:
+            state = "not heard" if trouble else "heard" if hertz else "quiet"
+        elif state == "silent" and topic == self.backend.recorder.command_topic:
+            state = "at rest"  # no goal is driven to, so no command is due
+        elif state == "silent" and self.backend.now < PAUSE:
+            state = "just begun"
+        shown = None if math.isnan(hertz) else round(10 * hertz) / 10
+        return {"topic": topic, "hertz": shown, "expected": expected, "state": state, "note": trouble}
 
     def _follow_topics(self) -> None:
         """Listen to each topic that a node publishes and the recorder does not hear."""
@@ -347,11 +344,6 @@ def verdict(hertz: float, expected: float) -> str:
     if hertz < (1 - TOLERANCE) * expected:
         return "too slow"
     return "too fast" if hertz > (1 + TOLERANCE) * expected else "as expected"
-
-
-def _rate(topic: str, hertz: float, expected: float, state: str, note: str = "") -> dict[str, Any]:
-    shown = None if math.isnan(hertz) else round(10 * hertz) / 10
-    return {"topic": topic, "hertz": shown, "expected": expected, "state": state, "note": note}
 
 
 def in_words(beams: Beams) -> dict[str, Any]:

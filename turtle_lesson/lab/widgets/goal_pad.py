@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from dataclasses import replace
 from itertools import product
 from typing import Any, ClassVar
 
@@ -196,12 +197,7 @@ class GoalPad(LiveWidget):
     def do_obstacle_change(self, number: int, done: bool = True, **fields: float) -> None:
         """Change some fields of one; `done` is False while it is being dragged."""
         obstacles = list(self.backend.board.obstacles)
-        old = self._obstacle(number)
-        known = {name: getattr(old, name) for name in old.__slots__}
-        unknown = sorted(set(fields) - set(known))
-        if unknown:
-            raise ValueError(f"A {type(old).__name__.lower()} has no {unknown[0]}; it has {', '.join(known)}.")
-        obstacles[number] = type(old)(**{**known, **fields})
+        obstacles[number] = replace(self._obstacle(number), **fields)
         self._put(obstacles, f"Now a {obstacles[number]}." if done else "")
 
     def do_obstacle_move(self, number: int, right: float, up: float) -> None:

@@ -229,19 +229,16 @@ class LiveWidget(anywidget.AnyWidget):
         if name in ("open", "alive"):
             self._views[view] = real_monotonic()
             if not self.backend.ended:
-                self._open()
+                if not self._is_open:
+                    self._is_open = True
+                    self.opened()
+                    self._stop_ticking = self.backend.loop.every(1 / self.RATE, self._beat)
+                self._tick()
         elif name == "close":
             if self._views.pop(view, None) is not None and not self._views:
                 self._rest()
         elif not self.backend.ended:
             self._carry_out(name, order)
-
-    def _open(self) -> None:
-        if not self._is_open:
-            self._is_open = True
-            self.opened()
-            self._stop_ticking = self.backend.loop.every(1 / self.RATE, self._beat)
-        self._tick()
 
     def _carry_out(self, name: object, order: dict[str, Any]) -> None:
         if not isinstance(name, str) or not hasattr(self, f"do_{name}"):

@@ -22,15 +22,14 @@ from .goal_client import Goal, goals_from
 from .live_widget import LiveWidget
 from .scene_commands import viewer_bundle
 from .scene_mesh import Mesh, joined, placed, prism
+from .scene_page import VIEW_SCRIPTS, ScenePage, replay_page, state_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..recording import Recording
     from .backend import Backend
-    from .scene_page import ScenePage
 
-VIEW_SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
 AROUND, UP = math.radians(-62), math.radians(40)
 """The viewpoint: the direction of the eye, and its height above the horizon, rad."""
 LIGHT = np.array([-0.35, -0.45, 0.82])
@@ -76,8 +75,6 @@ class Scene(LiveWidget):
 
         The page is shown where it is the last value of a cell; `save("scene.html")` writes it to a file.
         """
-        from .scene_page import ScenePage, state_of
-
         self.redraw()
         return ScenePage("3-D scene", f"Snapshot of the {self.text()}", state_of(self))
 
@@ -86,8 +83,6 @@ class Scene(LiveWidget):
 
         Raises ValueError where no pose was heard in that time.
         """
-        from .scene_page import replay_page
-
         return replay_page(self, since, until)
 
     def _text(self) -> str:

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 
+VIEW_SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
 PARTS = ("stage", "trail", "tip", "scan", "obstacles", "goal")
 HEIGHT = 560
 """Pixels in a notebook."""
@@ -62,8 +63,6 @@ class ScenePage:
     """A page of HTML, and the same in words. `html` is the page, `text` says what it shows."""
 
     def __init__(self, title: str, text: str, state: dict[str, Any]) -> None:
-        from .scene import VIEW_SCRIPTS
-
         self.text = text
         self.html = FRAME.format(
             policy=POLICY,
