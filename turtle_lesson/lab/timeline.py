@@ -91,7 +91,11 @@ def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
     colour = drawing.GREEN if lane.callback else drawing.BLUE
     if len(lane.marks):
         marks = lane.marks / NANOSECONDS
-        tick: dict[str, Any] = {"marker": "|", "markersize": 15.5, "markeredgewidth": _mark_width(axes, marks)}
+        # points: as wide as the gaps between the marks allow, so that single ones stay apart for as long as possible
+        low, high = axes.get_xlim()
+        gap = np.median(np.diff(marks)) / (high - low) if len(marks) > 1 else 1.0
+        thick = np.clip(36 * (WIDTH - LEFT - RIGHT) * gap, 0.3, 1.5)
+        tick: dict[str, Any] = {"marker": "|", "markersize": 15.5, "markeredgewidth": thick}
         label = "a short call" if lane.callback else "a message"
         axes.plot(marks, [place] * len(marks), color=colour, linestyle="none", zorder=3, label=label, **tick)
     if len(lane.bars):
@@ -109,15 +113,6 @@ def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
             "label": "ready, had to wait",
         }
         axes.plot(wait, [place + 0.37] * 2, **look, **dots)
-
-
-def _mark_width(axes: Axes, marks: np.ndarray) -> float:
-    """Points: as wide as the gaps between the marks allow, so that single ones stay apart for as long as possible."""
-    if len(marks) < 2:
-        return 1.5
-    low, high = axes.get_xlim()
-    gap = float(np.median(np.diff(marks))) / (high - low) * (WIDTH - LEFT - RIGHT) * 72
-    return min(1.5, max(0.3, 0.5 * gap))
 
 
 SHORT = 1_000_000

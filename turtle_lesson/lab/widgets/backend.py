@@ -218,7 +218,11 @@ class LazyPublisher:
     def publish(self, message: Any) -> None:
         """Publish; on a real network the very first messages wait until the listeners were found."""
         if self._publisher is None:
-            self._publisher = self._backend.node.create_publisher(self.message_class, self.topic, self._quality())
+            # reliable; and latched where a listener wants to be told of what was said before it came
+            wanted = {end.qos_profile.durability for end in self._others(self.topic)}
+            latched, volatile = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
+            quality = QoSProfile(depth=10, durability=latched if latched in wanted else volatile)
+            self._publisher = self._backend.node.create_publisher(self.message_class, self.topic, quality)
         self._waiting.append((self._backend.now, message))
         self.flush()
 
@@ -257,12 +261,6 @@ class LazyPublisher:
             return True
         own = len(self._backend.node.get_subscriptions_info_by_topic(self.topic)) - len(self._others(self.topic))
         return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
-
-    def _quality(self) -> QoSProfile:
-        """Reliable; and latched where a listener wants to be told of what was said before it came."""
-        wanted = {end.qos_profile.durability for end in self._others(self.topic)}
-        latched, volatile = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
-        return QoSProfile(depth=10, durability=latched if latched in wanted else volatile)
 
 
 def let_time_go_on(backend: Backend) -> None:

@@ -256,10 +256,7 @@ class Dashboard(GoalPad):
         table = Table(limit=MOST_MESSAGES)
         raw = self.backend.clock is None  # on a robot, where it may be images: never made into Python objects
         channel = Channel(self.backend.node, topic, type_name, lambda _: table.listener(), "", raw=raw)
-        try:
-            channel.follow()
-        except Exception as error:  # a type that is another one in this very program
-            return channel, table, f"{type_name} cannot be heard here: {error}"
+        channel.follow()
         return channel, table, "" if channel.listens else channel.why_silent()
 
     # -- log -----------------------------------------------------------------------------------------------------------

@@ -26,9 +26,6 @@ whole trail is sent again."""
 BREAK = np.full((1, 2), np.nan)
 """Where the trail breaks."""
 
-JUMP = 0.3
-"""The trail is sent again at once if the line by which the browser joins its end to the turtle would be longer than this, m."""
-
 STALE = 1.5
 """A scan older than this, s of robot time, is not drawn on the map."""
 
@@ -88,7 +85,6 @@ class GoalPad(LiveWidget):
 
     def __init__(self, backend: Backend, **traits: Any) -> None:
         self._trail = Trail(SPACING, TAIL, KEPT)
-        self._trail_end: tuple[float, ...] = ()
         self.desk = GoalClient(backend, self._goal_changed)
         self._goal_news = False
         super().__init__(backend, panels=list(self.PANELS), **traits)
@@ -132,14 +128,11 @@ class GoalPad(LiveWidget):
         pose = recorder.poses.last()
         if self.is_new("pose", pose):
             self.pose = pack(pose[1:] or [math.nan] * 4)
-        # whether the turtle is so far from the trail that a line to it would be seen to be wrong
-        jumped = bool(pose and self._trail_end) and math.dist(pose[1:3], self._trail_end[1:3]) > JUMP
-        if (self.due("trail", 10) or jumped) and self._trail.follow(recorder.poses):
+        if self.due("trail", 10) and self._trail.follow(recorder.poses):
             if self.is_new("trail", self._trail.changes):
                 pieces = [np.concatenate([BREAK, piece]) for piece in self._trail.old]
                 self.trail = b"".join(map(pack, pieces))
             self.tail = pack(np.concatenate([BREAK, self._trail.tip[:-1]]))  # the browser joins it to the turtle
-            self._trail_end = pose
         scanned = recorder.scans.last()
         if scanned and self.backend.now - recorder.seconds(scanned[0]) > STALE:
             self.scanned_from = b""
