@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import traitlets
@@ -45,10 +45,8 @@ class Found:
     """One parameter: what its node says of it, and what became of setting it here."""
 
     name: str
-    value: Any = None
-    """None if it is not set."""
-    type: int = NOT_SET
-    descriptor: Any = None
+    value: msg.ParameterValue = field(default_factory=msg.ParameterValue)
+    descriptor: msg.ParameterDescriptor = field(default_factory=msg.ParameterDescriptor)
     error: str = ""
     """Why it was not set the last time; "" if it was."""
     answers: int = 0
@@ -167,7 +165,7 @@ class ParametersPanel(LiveWidget):
         descriptors += [msg.ParameterDescriptor()] * (len(names) - len(descriptors))
         self._found = {name: self._found.get(name) or Found(name) for name in names}
         for found, value, descriptor in zip(self._found.values(), values, descriptors, strict=True):
-            found.value, found.type, found.descriptor = parameter_to_python(value), value.type, descriptor
+            found.value, found.descriptor = value, descriptor
         self._known = True
 
     def _follow(self, event: Any) -> None:
@@ -175,7 +173,7 @@ class ParametersPanel(LiveWidget):
             return
         for parameter in event.changed_parameters:
             if found := self._found.get(parameter.name):
-                found.value, found.type = parameter_to_python(parameter.value), parameter.value.type
+                found.value = parameter.value
         for parameter in event.deleted_parameters:
             self._found.pop(parameter.name, None)
         if any(parameter.name not in self._found for parameter in event.new_parameters):
@@ -193,7 +191,7 @@ class ParametersPanel(LiveWidget):
         if found is None:
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
         try:
-            wanted = read_parameter(value, found.type or found.descriptor.type, found.descriptor.dynamic_typing)
+            wanted = read_parameter(value, found.value.type or found.descriptor.type, found.descriptor.dynamic_typing)
         except ValueError as error:
             self._told(found, f"Not asked: {error}")
             return
@@ -204,7 +202,7 @@ class ParametersPanel(LiveWidget):
         def told(answer: Any) -> None:
             result = next(iter(answer.results), None)
             if result is not None and result.successful:
-                found.value, found.type = parameter_to_python(wanted), wanted.type
+                found.value = wanted
                 self._told(found, "")
             else:
                 self._told(found, f"Refused: {(result.reason if result else '') or 'refused, without a reason'}")
@@ -258,19 +256,19 @@ class ParametersPanel(LiveWidget):
 
 
 def _item(found: Found) -> dict[str, Any]:
-    descriptor = found.descriptor
+    descriptor, kind, shown = found.descriptor, found.value.type, shown_parameter(found.value)
     ranges = {INTEGER: descriptor.integer_range, DOUBLE: descriptor.floating_point_range}
-    limits = [{"low": each.from_value, "high": each.to_value, "step": each.step} for each in ranges.get(found.type, ())]
-    control = "number" if found.type in ranges else "text"
-    if found.type == BOOL and not descriptor.dynamic_typing:
+    limits = [{"low": each.from_value, "high": each.to_value, "step": each.step} for each in ranges.get(kind, ())]
+    control = "number" if kind in ranges else "text"
+    if kind == BOOL and not descriptor.dynamic_typing:
         control = "checkbox"
     elif limits and 0 < limits[0]["high"] - limits[0]["low"] < 1e15:
         control = "slider"
     item = {
         "name": found.name,
-        "type": TYPES[found.type],
+        "type": TYPES[kind],
         "control": control,
-        "value": found.value if isinstance(found.value, bool) else shown_parameter(found.value),
+        "value": found.value.bool_value if kind == BOOL else shown,
         "help": " ".join(filter(None, (descriptor.description, descriptor.additional_constraints))),
         "error": found.error,
         "pending": found.pending,
@@ -295,21 +293,15 @@ def _look_up(node: Node, name: str) -> str:
 # -- values --------------------------------------------------------------------------------------------------------------
 
 
-def parameter_to_python(value: Any) -> Any:
-    """What an rcl_interfaces/msg/ParameterValue holds, bytes as numbers; None if it is not set."""
+def shown_parameter(value: msg.ParameterValue) -> str:
+    """A value as it stands in a field: YAML for arrays, bytes as numbers; nothing if it is not set."""
     found = parameter_value_to_python(value)
-    return [each[0] for each in found] if value.type == BYTES else found
-
-
-def shown_parameter(value: Any) -> str:
-    """A value as it stands in a field: YAML for arrays."""
-    if value is None:
-        return ""
-    if isinstance(value, list):
+    if value.type in ELEMENTS:
         import yaml
 
-        return yaml.safe_dump(value, default_flow_style=True, width=float("inf"), allow_unicode=True).strip()
-    return value if isinstance(value, str) else repr(value)
+        rows = [each[0] for each in found] if value.type == BYTES else list(found)
+        return yaml.safe_dump(rows, default_flow_style=True, width=float("inf"), allow_unicode=True).strip()
+    return "" if found is None else found if isinstance(found, str) else repr(found)
 
 
 def read_parameter(typed: Any, kind: int, dynamic: bool = False) -> Any:
