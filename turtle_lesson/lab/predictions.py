@@ -258,14 +258,14 @@ def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess
     signs: list[tuple[str, str, str]] = []  # on the map, in the key, and in words
     if turtle is not None:
         there = drawing.turtle(*_pixels(turtle[:2]), turtle[2], SCALE)
-        signs.append((there, drawing.turtle(0, 0, 0, 18), _words("start", turtle)))
+        signs.append((there, drawing.turtle(0, 0, 0, 18), f"start {point(*turtle[:2])} m"))
     if goal is not None:
-        signs.append((_flag(*_pixels(goal), SCALE), _flag(-2, 6, 16), _words("goal", goal)))
+        signs.append((_flag(*_pixels(goal), SCALE), _flag(-2, 6, 16), f"goal {point(*goal[:2])} m"))
     if guess is not None:
         ring = f'fill="none" stroke="{drawing.BLUE}" stroke-width="3"'
-        signs.append((_disc(*_pixels(guess), 8, ring), _disc(0, 0, 8, ring), _words("your guess", guess)))
+        signs.append((_disc(*_pixels(guess), 8, ring), _disc(0, 0, 8, ring), f"your guess {point(*guess)} m"))
     full = f'fill="{drawing.PURPLE}"'
-    signs.append((_disc(*_pixels(outcome), 6, full), _disc(0, 0, 6, full), _words("outcome", outcome)))
+    signs.append((_disc(*_pixels(outcome), 6, full), _disc(0, 0, 6, full), f"outcome {point(*outcome)} m"))
     parts = _axes()
     if guess is not None:
         parts.append(_line(*_pixels(guess), *_pixels(outcome), drawing.INK, 'stroke-dasharray="4 4"'))
@@ -280,10 +280,6 @@ def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess
         round(LEFT + SIDE + RIGHT), round(top + KEY * len(signs) + 4), "Guess and outcome", description, parts
     )
     return drawing.image(picture, description)
-
-
-def _words(name: str, place: tuple[float, ...] | Goal) -> str:
-    return f"{name} {point(place[0], place[1])} m"
 
 
 def _pixels(place: tuple[float, ...] | Goal) -> Place:

@@ -212,7 +212,8 @@ class Single(Part):
         super().__init__(name, kind, whole)
         self.default = plain(value, kind)
         self.text: str | bool = self.default if isinstance(self.default, (bool, str)) else repr(self.default)
-        self.constants = {each: found for each, found in constants.items() if type(found) is type(self.default)}
+        alike = () if isinstance(self.default, bool) else (type(self.default),)
+        self.constants = {each: found for each, found in constants.items() if type(found) in alike}
 
     def value(self) -> Any:
         """The value, as YAML has it. Raises ValueError, in words, for what the field cannot be."""
