@@ -359,12 +359,9 @@ def _side_by_side(cards: list[np.ndarray]) -> Figure:
     """A figure on which pictures (rows of pixels) stand side by side, pixel for pixel, their tops in line."""
     from matplotlib.figure import Figure
 
-    gap = 12 * SHARPNESS
-    sharp = drawing.DPI * SHARPNESS
-    width, height = sum(card.shape[1] + gap for card in cards) - gap, max(map(len, cards))
-    figure = Figure((width / sharp, height / sharp), dpi=drawing.DPI, facecolor="none")
-    left = 0
-    for card in cards:
-        figure.figimage(card, left, height - len(card), origin="upper")
-        left += card.shape[1] + gap
+    gap, sharp, tall = 12 * SHARPNESS, drawing.DPI * SHARPNESS, max(map(len, cards))
+    padded = [np.pad(card, ((0, tall - len(card)), (0, gap), (0, 0))) for card in cards]
+    whole = np.hstack(padded)[:, :-gap]
+    figure = Figure((whole.shape[1] / sharp, tall / sharp), dpi=drawing.DPI, facecolor="none")
+    figure.figimage(whole, origin="upper")
     return figure
