@@ -190,7 +190,7 @@ class GoalPad(LiveWidget):
     def do_obstacle_change(self, number: int, done: bool = True, **fields: float) -> None:
         """Change some fields of one; `done` is False while it is being dragged."""
         obstacles = list(self.backend.board.obstacles)
-        obstacles[number] = replace(self._obstacle(number), **fields)
+        obstacles[number] = replace(self._obstacle(number), **fields)  # type: ignore[arg-type]
         self._put(obstacles, f"Now a {obstacles[number]}." if done else "")
 
     def do_obstacle_move(self, number: int, right: float, up: float) -> None:
