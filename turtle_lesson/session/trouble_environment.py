@@ -14,7 +14,7 @@ from ..ros import launching
 from ..ros.ament.package import Package, PythonProgram, Target
 from ..ros.ament.source import overlay, overlays, remove_all, use_source
 from ..ros.cli import colcon
-from ..ros.cli.jobs import Job, jobs
+from ..ros.cli.jobs import jobs
 from ..ros.idl.names import module_name
 from ..ros.idl.registry import registry
 from ..ros.runtime.files import CellOutput, home
@@ -111,7 +111,7 @@ class TroubleEnvironment:
             for each in programs
         ]
         handle = launching.launch_description(self._world, LaunchDescription(nodes))
-        jobs(self._world).add(Job("ros2 launch trouble.launch.py", handle))
+        jobs(self._world).add("ros2 launch trouble.launch.py", handle)
         handle.wait_until_up()
 
     def stop_simulator(self) -> None:

@@ -103,8 +103,7 @@ def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) ->
 @graph_verb("lifecycle nodes", *NODE, ALL_NODES, COUNT_NODES)
 def nodes(args: Namespace, node: Node) -> None:
     """The names of the managed nodes."""
-    found = _managed(node, args.all)
-    print_names(found, count=args.count_nodes)
+    print_names(_managed(node, args.all), count=args.count_nodes)
 
 
 @graph_verb(

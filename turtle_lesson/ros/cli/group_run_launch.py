@@ -22,7 +22,7 @@ from ..sim.errors import shown_path
 from ..sim.process import Process
 from .arguments import Argument, arg, cut, duration, either, flag
 from .group_pkg import not_found, path_of
-from .jobs import Job, LastSignal, jobs, lasting
+from .jobs import LastSignal, jobs, lasting
 from .verb import CommandError, verb
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ def _pairs(words: Sequence[str]) -> dict[str, str]:
 def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> int:
     """Let it begin, say how to end it if it goes on, and leave it running."""
     world = current_world()
-    job = jobs(world).add(Job(words.strip(), what))
+    job = jobs(world).add(words.strip(), what)
     simulators = len(world.graph.servers("/spawn"))
     if seconds is not None:
         world.sim.settle()

@@ -8,7 +8,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -33,12 +33,11 @@ class Jobs:
         self._jobs: list[Job] = []
         self._count = 0
 
-    def add(self, job: Job) -> Job:
+    def add(self, words: str, what: Process | LaunchHandle) -> Job:
         """Number a new job."""
         self._count += 1
-        job.number = self._count
-        self._jobs.append(job)
-        return job
+        self._jobs.append(Job(words, what, self._count))
+        return self._jobs[-1]
 
     @property
     def running(self) -> list[Job]:
@@ -53,7 +52,7 @@ class Job:
 
     words: str
     what: Process | LaunchHandle
-    number: int = field(default=0)
+    number: int
 
     @property
     def running(self) -> bool:

@@ -22,7 +22,7 @@ from ..idl.names import did_you_mean
 from ..launching.commands import UnknownCommand
 from ..runtime.world import Waiter, current_process
 from .arguments import WIDTH, Stop, cut
-from .jobs import Errors, Job, cell_streams, jobs, lasting
+from .jobs import Errors, cell_streams, jobs, lasting
 from .script import ShellSyntaxError, UnfinishedError, expand, pipelines, tokens
 from .verb import INTERRUPTED, VERBS, Invocation, Verb
 
@@ -62,7 +62,7 @@ def run(
             out, error = lasting(out_to, world.sim), lasting(error_to, world.sim)
             process = world.spawn(partial(_main, call), name="ros2", argv=words, stdout=out, stderr=error)
             process.state(Invocation).background = True
-            job = jobs(world).add(Job(" ".join(words), process))
+            job = jobs(world).add(" ".join(words), process)
             print(f"[{job.number}] {process.pid}")
             world.sim.settle()
             return 0

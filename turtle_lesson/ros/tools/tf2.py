@@ -114,15 +114,10 @@ def _branches(parent: str, children: dict[str, list[str]], frames: dict[str, Any
     names = children.get(parent, [])
     for name in names:
         sign, more = ("└── ", "    ") if name == names[-1] else ("├── ", "│   ")
-        lines.append(f"{indent}{sign}{name}  ({_told(frames[name])})")
+        rate, latest = frames[name]["rate"], frames[name]["most_recent_transform"]
+        lines.append(f"{indent}{sign}{name}  ({f'{rate:.1f} Hz, the latest at {latest:.3f}' if latest else 'static'})")
         lines += _branches(name, children, frames, indent + more)
     return lines
-
-
-def _told(entry: dict[str, Any]) -> str:
-    if not entry["most_recent_transform"]:
-        return "static"
-    return f"{entry['rate']:.1f} Hz, the latest at {entry['most_recent_transform']:.3f}"
 
 
 def view_frames() -> int:
