@@ -22,7 +22,7 @@ PARTS = {"msg": (), "srv": ("Request", "Response"), "action": ("Goal", "Result",
 
 
 def parse(folder: str, package: str, name: str, text: str, file: str | None = None) -> Definition:
-    """Read the text of a `.msg`, `.srv` or `.action` file, which is the `folder`; InvalidDefinition where ROS refuses it."""
+    """Read a definition; `folder` is `msg`, `srv` or `action`. Raises InvalidDefinition where ROS refuses it."""
     lines = list(enumerate(text.replace("\t", " ").splitlines(), start=1))
     if folder == "msg":
         return _parse_message(folder, package, name, lines, text, file)
