@@ -140,7 +140,12 @@ class _Build:
         if name not in self.commands:
             if self.lacking and not did_you_mean(name, self.commands):
                 return  # a command of a package that is not here, and no slip of the pen
-            raise self._unknown(command)
+            packages = [package for package, commands in COMMANDS_OF.items() if name in commands]
+            hint = did_you_mean(name, self.commands | {"rosidl_generate_interfaces"})
+            if packages:
+                likely = "rosidl_default_generators" if name.startswith("rosidl") else packages[0]
+                hint = f"Write find_package({likely} REQUIRED) above line {command.line}."
+            raise refused(f'Unknown CMake command "{name}".', command.where, hint)
         if name in {"find_package", "project", "set"} and not args:
             raise refused(f"{name} called with incorrect number of arguments", command.where)
         match name:
@@ -167,15 +172,6 @@ class _Build:
                 self._install_python_package(command)
             case "ament_package":
                 self._package(command)
-
-    def _unknown(self, command: Command) -> BuildFailure:
-        packages = [package for package, commands in COMMANDS_OF.items() if command.name in commands]
-        if "rosidl_default_generators" in packages and command.name.startswith("rosidl"):
-            packages = ["rosidl_default_generators"]
-        hint = did_you_mean(command.name, self.commands | {"rosidl_generate_interfaces"})
-        if packages:
-            hint = f"Write find_package({packages[0]} REQUIRED) above line {command.line}."
-        return refused(f'Unknown CMake command "{command.name}".', command.where, hint)
 
     def _find_package(self, command: Command) -> None:
         name, required = command.args[0], "REQUIRED" in command.args

@@ -149,22 +149,7 @@ class _Build:
                 text = f"error: data_files has {str(entry)[:80]}, which is not of the form ('folder', ['file', …])"
                 raise _refused(text, "Write ('share/' + package_name, ['package.xml']),.")
             items += [self._data_file(place, name) for name in files]
-        return self._with_markers(items)
-
-    def _data_file(self, place: str, name: str) -> Item:
-        source = self.found.path / name
-        if Path(name).is_absolute():
-            text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute"
-            inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
-            raise _refused(text, f"Give the path relative to the folder of setup.py: '{inside}'.")
-        if not source.is_file():
-            hint = f"setup.py names it in data_files. {did_you_mean(name, self._there('*'))}".strip()
-            raise _refused(f"error: can't copy '{name}': doesn't exist or not a regular file", hint)
-        can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
-        return Item((PurePosixPath(place.replace(os.sep, "/")) / source.name).as_posix(), source, program=can_run)
-
-    def _with_markers(self, items: list[Item]) -> list[Item]:
-        """The items and what ROS 2 finds the package by, which colcon adds where setup.py does not name it."""
+        # What ROS 2 finds the package by, which colcon adds where setup.py does not name it.
         name = self.found.name
         targets = {item.target for item in items}
         marker = f"share/ament_index/resource_index/packages/{name}"
@@ -177,6 +162,18 @@ class _Build:
             self.warnings.append(f"{start} the 'package.xml' file {end}")
             items.append(Item(f"share/{name}/package.xml", self.found.path / "package.xml"))
         return items
+
+    def _data_file(self, place: str, name: str) -> Item:
+        source = self.found.path / name
+        if Path(name).is_absolute():
+            text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute"
+            inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
+            raise _refused(text, f"Give the path relative to the folder of setup.py: '{inside}'.")
+        if not source.is_file():
+            hint = f"setup.py names it in data_files. {did_you_mean(name, self._there('*'))}".strip()
+            raise _refused(f"error: can't copy '{name}': doesn't exist or not a regular file", hint)
+        can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
+        return Item((PurePosixPath(place.replace(os.sep, "/")) / source.name).as_posix(), source, program=can_run)
 
     # -- programs --------------------------------------------------------------------------------------------------
 

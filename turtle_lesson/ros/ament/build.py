@@ -250,9 +250,7 @@ class _Builder:
         folder = self.plan.log / f"build_{stamp}"
         for name, outcome in self.log.items():
             stdout = "".join(f"{line}\n" for line in outcome.stdout)
-            logs = {"stdout": stdout, "stderr": outcome.stderr, "stdout_stderr": stdout + outcome.stderr}
-            for file, text in logs.items():
-                files.save(folder / name / f"{file}.log", text)
+            files.save(folder / name / "stdout_stderr.log", stdout + outcome.stderr)
         summary = "".join(f"{name}: exit code {outcome.code}\n" for name, outcome in self.log.items())
         files.save(folder / "logger_all.log", summary)
         for link in (self.plan.log / "latest", self.plan.log / "latest_build"):

@@ -164,10 +164,23 @@ class InterfaceCheck:
         if finished:
             hint = f"Move ament_package() to the end of CMakeLists.txt, below line {self._command.line}."
             raise self._refused(64, "rosidl_generate_interfaces() must be called before ament_package()", hint)
+        folder = self._found.path
         for name in self.files:
-            self._exists(name)
+            if not (folder / name).is_file():
+                text = (
+                    f"rosidl_generate_interfaces() the passed file '{name}' doesn't exist relative to the "
+                    f"CMAKE_CURRENT_SOURCE_DIR '{shown_path(str(folder))}'"
+                )
+                like = sorted(folder.rglob(f"*{Path(name).suffix or '.msg'}"))
+                there = [path.relative_to(folder).as_posix() for path in like]
+                hint = did_you_mean(name, there) or (
+                    f"There are: {', '.join(there)}." if there else "Write that file first."
+                )
+                if name.endswith(","):
+                    hint = "CMake separates names by spaces or new lines: leave the commas out."
+                raise self._refused(93, text, hint)
         for name in self.files:
-            self._parses(name)
+            self._parse(name)
         for name in self._dependencies:
             if name not in seen:
                 reason = f"rosidl_generate_interfaces() the passed dependency '{name}' has not been found before"
@@ -215,21 +228,7 @@ class InterfaceCheck:
         )
         return BuildFailure(text, hint, code=2, seconds=1.5)
 
-    def _exists(self, name: str) -> None:
-        folder = self._found.path
-        if (folder / name).is_file():
-            return
-        text = (
-            f"rosidl_generate_interfaces() the passed file '{name}' doesn't exist relative to the "
-            f"CMAKE_CURRENT_SOURCE_DIR '{shown_path(str(folder))}'"
-        )
-        there = sorted(path.relative_to(folder).as_posix() for path in folder.rglob(f"*{Path(name).suffix or '.msg'}"))
-        hint = did_you_mean(name, there) or (f"There are: {', '.join(there)}." if there else "Write that file first.")
-        if name.endswith(","):
-            hint = "CMake separates names by spaces or new lines: leave the commas out."
-        raise self._refused(93, text, hint)
-
-    def _parses(self, name: str) -> None:
+    def _parse(self, name: str) -> None:
         path = self._found.path / name
         suffix = path.suffix[1:]
         if suffix not in FOLDERS:

@@ -341,8 +341,3 @@ def _commands(package: str) -> frozenset[str]:
 
 COMMANDS_OF = {package: _commands(package) for package in _LISTED}
 """The commands that each package brings to those who find it."""
-
-
-def brought_by(command: str) -> list[str]:
-    """The packages that bring a command, the most usual first."""
-    return [package for package, commands in COMMANDS_OF.items() if command in commands]

@@ -137,13 +137,9 @@ def find_packages(where: str = ".", exclude: Any = (), include: Any = ("*",)) ->
 
 def _text(error: BaseException) -> str:
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == "setup.py"]
-    lines = ["Traceback (most recent call last):\n"] if frames else []
-    file = Path("setup.py")
-    source = file.read_text(encoding="utf-8", errors="replace").splitlines() if file.is_file() else []
-    for frame in frames[-5:]:
-        lines.append(f'  File "setup.py", line {frame.lineno}, in {frame.name}\n')
-        if frame.lineno and frame.lineno <= len(source):
-            lines.append(f"    {source[frame.lineno - 1].strip()}\n")
+    # Without columns, so that no Python marks them by ^^^^.
+    shown = [traceback.FrameSummary(each.filename, each.lineno, each.name, line=each.line) for each in frames[-5:]]
+    lines = ["Traceback (most recent call last):\n", *traceback.format_list(shown)] if frames else []
     return "".join([*lines, *traceback.format_exception_only(error)])
 
 

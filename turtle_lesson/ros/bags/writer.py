@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from ..runtime import files
+from ..sim.simulation import NANOSECONDS
 from . import BagError, UnrecordableType
 
 if TYPE_CHECKING:
@@ -230,22 +231,20 @@ def as_recorded(profile: QoSProfile) -> Qos:
 
     policies: dict[str, Any] = vars(profile)
 
-    def duration(name: str) -> QosTime:
-        nanoseconds = policies[name].nanoseconds
-        return QosTime(*divmod(nanoseconds, 1_000_000_000)) if nanoseconds else QosTime(*INFINITE)
-
     def chosen(name: str, default: int) -> int:
         return int(policies[name]) or default
 
+    times = [policies[name].nanoseconds for name in ("deadline", "lifespan", "liveliness_lease_duration")]
+    deadline, lifespan, lease = (QosTime(*(divmod(time, NANOSECONDS) if time else INFINITE)) for time in times)
     return Qos(
         QosHistory(chosen("history", HistoryPolicy.KEEP_LAST)),
         policies["depth"],
         QosReliability(chosen("reliability", ReliabilityPolicy.RELIABLE)),
         QosDurability(chosen("durability", DurabilityPolicy.VOLATILE)),
-        duration("deadline"),
-        duration("lifespan"),
+        deadline,
+        lifespan,
         QosLiveliness(chosen("liveliness", LivelinessPolicy.AUTOMATIC)),
-        duration("liveliness_lease_duration"),
+        lease,
         policies["avoid_ros_namespace_conventions"],
     )
 
