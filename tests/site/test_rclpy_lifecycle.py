@@ -203,7 +203,7 @@ def test_a_lifecycle_publisher_publishes_only_while_its_node_is_active(run: Run)
         node = LifecycleNode("talker")
         publisher = node.create_lifecycle_publisher(String, "chatter", 10)
         assert type(publisher) is LifecyclePublisher
-        with pytest.raises(TypeError, match="unexpected keyword argument 'publisher_class'"):
+        with pytest.raises(TypeError, match="multiple values for keyword argument 'publisher_class'"):
             node.create_lifecycle_publisher(String, "chatter", 10, publisher_class=LifecyclePublisher)
         node.create_subscription(String, "chatter", lambda message: found.append(message.data), 10)
         for trigger in ("configure", "activate", "deactivate"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from traceback import extract_tb
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtle_lesson.ros.distro import FORBIDDEN_TRANSITIONS_ARE_LOGGED
@@ -17,7 +18,6 @@ from .managed_entity import ManagedEntity, TransitionCallbackReturn
 from .publisher import LifecyclePublisher
 
 CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
-SHUTDOWN = {"unconfigured": 5, "inactive": 6, "active": 7}
 HANDLERS = {
     "configuring": "on_configure",
     "cleaningup": "on_cleanup",
@@ -44,22 +44,9 @@ class Transition(NamedTuple):
     goal: State
 
 
-STATES = {
-    label: State(number, label)
-    for number, label in (
-        (0, "unknown"),
-        (1, "unconfigured"),
-        (2, "inactive"),
-        (3, "active"),
-        (4, "finalized"),
-        (10, "configuring"),
-        (11, "cleaningup"),
-        (12, "shuttingdown"),
-        (13, "activating"),
-        (14, "deactivating"),
-        (15, "errorprocessing"),
-    )
-}
+_AT_REST = ["unknown", "unconfigured", "inactive", "active", "finalized"]
+_ON_THE_WAY = ["configuring", "cleaningup", "shuttingdown", "activating", "deactivating", "errorprocessing"]
+STATES = {label: State(number, label) for number, label in (*enumerate(_AT_REST), *enumerate(_ON_THE_WAY, 10))}
 
 
 def _transition(number: int, label: str, start: str, goal: str) -> Transition:
@@ -81,9 +68,7 @@ TRANSITIONS = [
     *_outcomes(30, "activating", "active", "inactive"),
     _transition(4, "deactivate", "active", "deactivating"),
     *_outcomes(40, "deactivating", "inactive", "active"),
-    _transition(5, "shutdown", "unconfigured", "shuttingdown"),
-    _transition(6, "shutdown", "inactive", "shuttingdown"),
-    _transition(7, "shutdown", "active", "shuttingdown"),
+    *(_transition(5 + i, "shutdown", state, "shuttingdown") for i, state in enumerate(_AT_REST[1:4])),
     *_outcomes(50, "shuttingdown", "finalized", "finalized"),
     *_outcomes(60, "errorprocessing", "unconfigured", "finalized", "finalized"),
 ]
@@ -174,10 +159,9 @@ class LifecycleNodeMixin(ManagedEntity):
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
         """Shut the node down; it stays where it is, but can do nothing any more. RCLError if it is finalized already."""
-        transition = SHUTDOWN.get(self._state_machine.current_state.label)
-        if transition is None:
+        if all(each.label != "shutdown" for each in self._state_machine.available_transitions):
             raise RCLError("Shutdown transtion not possible")  # spelt as in rclpy
-        return self._ros_change_state(transition)
+        return self._ros_change_state("shutdown")
 
     def trigger_activate(self) -> TransitionCallbackReturn:
         """Activate the node, which must be inactive."""
@@ -187,10 +171,10 @@ class LifecycleNodeMixin(ManagedEntity):
         """Deactivate the node, which must be active."""
         return self._ros_change_state(DEACTIVATE)
 
-    def _ros_change_state(self, transition_id: int) -> TransitionCallbackReturn:
+    def _ros_change_state(self, wanted: int | str) -> TransitionCallbackReturn:
         machine = self._state_machine
         before = LifecycleState(label=machine.current_state.label, state_id=machine.current_state.id)
-        machine.trigger(transition_id)
+        machine.trigger(wanted)
         outcome = self._ros_call(before)
         machine.trigger(_label_of(outcome, machine))
         if outcome == TransitionCallbackReturn.ERROR:
@@ -203,7 +187,10 @@ class LifecycleNodeMixin(ManagedEntity):
         try:
             return callback(before)
         except Exception as error:
-            self.get_logger().error(_told(callback, error))
+            last = extract_tb(error.__traceback__)[-1]
+            what = f"{callback.__name__} raised {type(error).__name__}: {error}"  # the real rclpy says nothing of it
+            place = f"({shown_path(last.filename)}, line {last.lineno})"
+            self.get_logger().error(f"{what} {place}. That counts as an error of the transition.")
             return TransitionCallbackReturn.ERROR
 
     def _ros_offer_services(self, group: CallbackGroup) -> None:
@@ -267,8 +254,6 @@ class LifecycleNodeMixin(ManagedEntity):
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
         """As `create_publisher`; but the publisher only publishes while the node is active."""
-        if "publisher_class" in kwargs:
-            raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")
         publisher: Any = Node.create_publisher(self, *args, **kwargs, publisher_class=LifecyclePublisher)  # type: ignore[arg-type]
         self.add_managed_entity(publisher)
         return publisher
@@ -296,17 +281,6 @@ def _label_of(outcome: Any, machine: StateMachine) -> str:
         error.add_note(f"{name} returned {outcome!r}; end it with `return TransitionCallbackReturn.SUCCESS`.")
         raise error
     return outcome.to_label()
-
-
-def _told(callback: Callable[..., Any], error: Exception) -> str:
-    """What is logged of an error in a callback. The real rclpy says nothing of it."""
-    trace = error.__traceback__
-    while trace is not None and trace.tb_next is not None:
-        trace = trace.tb_next
-    place = f" ({shown_path(trace.tb_frame.f_code.co_filename)}, line {trace.tb_lineno})" if trace is not None else ""
-    return (
-        f"{callback.__name__} raised {type(error).__name__}: {error}{place}. That counts as an error of the transition."
-    )
 
 
 def _description(transition: Transition) -> Any:
