@@ -181,22 +181,12 @@ def new_goal_id() -> Any:
     return UUID(uuid=list(Number(int=source.getrandbits(128), version=4).bytes))
 
 
-ARGUMENTS = {
-    "goal_callback": "goal_request",
-    "handle_accepted_callback": "goal_handle",
-    "cancel_callback": "goal_handle",
-    "execute_callback": "goal_handle",
-    "feedback_callback": "feedback_msg",
-}
-
-
 async def call_back(role: str, callback: Callable[[Any], Any], argument: Any) -> Any:
     """Call a callback that plays a role in an action, and await what it returns if it is an `async def`."""
     try:
         result = callback(argument)
     except TypeError as error:
         if is_raised_by_the_call(error):
-            name = ARGUMENTS[role]
-            error.add_note(f"The {role} of an action is called with one argument: def {role}(self, {name}).")
+            error.add_note(f"The {role} of an action is called with one argument: def {role}(self, argument).")
         raise
     return await result if inspect.iscoroutinefunction(callback) else result

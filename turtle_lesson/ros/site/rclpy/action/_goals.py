@@ -63,27 +63,23 @@ _NEXT = {
 def state_after(state: int, event: GoalEvent) -> int:
     """The state that an event leads to. Raises RCLError where it is not allowed, with what to do instead as a note."""
     following = _NEXT.get((state, event))
-    if following is None:
-        error = RCLError(
-            "Failed to update goal state: goal_handle attempted invalid transition "
-            f"from state {NAMES[state]} with event {event.name}"
-        )
-        error.add_note(_advice(state, event))
-        raise error
-    return following
-
-
-def _advice(state: int, event: GoalEvent) -> str:
+    if following is not None:
+        return following
     if state not in ACTIVE:
-        return f"This goal has already ended ({NAMES[state]}). End a goal once, and return the result right after."
-    if event is GoalEvent.EXECUTE:
-        return "execute() has already been called for this goal: the default handle_accepted_callback also calls it."
-    if state == GoalStatus.STATUS_ACCEPTED:
-        return "This goal is not being executed yet: call goal_handle.execute(), and end it in the execute callback."
-    return (
-        "canceled() is for a goal whose cancellation was requested, and accepted by its cancel_callback: check "
-        "goal_handle.is_cancel_requested first. To give up for another reason, call goal_handle.abort()."
-    )
+        advice = f"This goal has already ended ({NAMES[state]}). End a goal once, and return the result right after."
+    elif event is GoalEvent.EXECUTE:
+        advice = "execute() has already been called for this goal: the default handle_accepted_callback also calls it."
+    elif state == GoalStatus.STATUS_ACCEPTED:
+        advice = "This goal is not being executed yet: call goal_handle.execute(), and end it in the execute callback."
+    else:
+        advice = (
+            "canceled() is for a goal whose cancellation was requested, and accepted by its cancel_callback: check "
+            "goal_handle.is_cancel_requested first. To give up for another reason, call goal_handle.abort()."
+        )
+    text = f"goal_handle attempted invalid transition from state {NAMES[state]} with event {event.name}"
+    error = RCLError(f"Failed to update goal state: {text}")
+    error.add_note(advice)
+    raise error
 
 
 class ServerGoalHandle:

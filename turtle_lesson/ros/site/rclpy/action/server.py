@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from enum import Enum
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
@@ -25,7 +25,6 @@ from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from .._tracing import name_of
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
-from ..impl.logging_severity import LoggingSeverity
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ._endpoints import TOPICS, ActionEndpoint, call_back
 from ._goals import GoalEvent, ServerGoalHandle, goals_to_cancel, key_of
@@ -171,68 +170,45 @@ class ActionServer(ActionEndpoint):
         if "result" in taken_data:
             self._execute_result_request(taken_data["result"])
 
-    def _debug(self, text: str, goal_id: Any) -> None:
-        """Log what only the developer of a server wants to see, with a goal's number."""
-        logger = self._node.get_logger()
-        if logger.is_enabled_for(LoggingSeverity.DEBUG):
-            logger.debug(text.format(goal_id.uuid))
-
     async def _execute_goal_request(self, request: Any) -> None:
-        message = request.message
-        self._debug("New goal request with ID: {}", message.goal_id)
-        info = GoalInfo(goal_id=message.goal_id)
-        key = key_of(message.goal_id)
+        message, logger = request.message, self._node.get_logger()
+        info, key = GoalInfo(goal_id=message.goal_id), key_of(message.goal_id)
         handle = None
-        if key not in self._goals and await self._is_acceptable(message.goal):
+        if key not in self._goals and await self._accepts(GoalResponse, self._goal_callback, message.goal):
             info.stamp = self._node.get_clock().now().to_msg()
             if key in self._goals:  # another one of the same number was accepted while the goal callback decided
-                text = f"Failed to accept new goal with ID {message.goal_id.uuid}: goal ID already exists"
-                self._node.get_logger().error(text)
+                logger.error(f"Failed to accept new goal with ID {message.goal_id.uuid}: goal ID already exists")
             else:
                 handle = self._goals[key] = ServerGoalHandle(self, info, message.goal)
         accepted = handle is not None
         request.answer(self._action_type.Impl.SendGoalService.Response(accepted=accepted, stamp=info.stamp))
-        if handle is None:
-            self._debug("New goal rejected: {}", message.goal_id)
-            return
-        self._debug("New goal accepted: {}", message.goal_id)
-        self._publish_status()
-        await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
+        if handle is not None:
+            self._publish_status()
+            await call_back("handle_accepted_callback", self._handle_accepted_callback, handle)
 
-    async def _is_acceptable(self, goal: Any) -> bool:
-        response = await call_back("goal_callback", self._goal_callback, goal)
-        if not isinstance(response, GoalResponse):
-            self._node.get_logger().warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
-        return response is GoalResponse.ACCEPT
+    async def _accepts(self, kind: type[Enum], callback: Callable[[Any], Any], argument: Any) -> bool:
+        """Whether a callback of the program's answers with ACCEPT."""
+        of_goals = kind is GoalResponse
+        response = await call_back("goal_callback" if of_goals else "cancel_callback", callback, argument)
+        if not isinstance(response, kind):
+            what, refused = ("Goal request", "goal") if of_goals else ("Cancel", "cancel request")
+            text = f"{what} callback did not return a {kind.__name__} type. Rejecting {refused}."
+            self._node.get_logger().warning(text)
+        return response is kind["ACCEPT"]
 
     async def _execute_cancel_request(self, request: Any) -> None:
-        self._debug("Cancel request received for goal with ID: {}", request.message.goal_info.goal_id)
         response = self._action_type.Impl.CancelGoalService.Response()
         response.return_code, handles = goals_to_cancel(request.message.goal_info, self._goals)
-        response.goals_canceling = [handle._goal_info for handle in handles if await self._cancel(handle)]
+        for handle in handles:
+            if await self._accepts(CancelResponse, self._cancel_callback, handle):
+                with suppress(RCLError):  # it has ended meanwhile
+                    handle._update_state(GoalEvent.CANCEL_GOAL)
+                    response.goals_canceling.append(handle._goal_info)
         request.answer(response)
 
-    async def _cancel(self, handle: ServerGoalHandle) -> bool:
-        """Whether the program lets this goal be cancelled."""
-        logger = self._node.get_logger()
-        response = await call_back("cancel_callback", self._cancel_callback, handle)
-        if not isinstance(response, CancelResponse):
-            logger.warning("Cancel callback did not return a CancelResponse type. Rejecting cancel request.")
-        if response is not CancelResponse.ACCEPT:
-            return False
-        try:
-            handle._update_state(GoalEvent.CANCEL_GOAL)
-        except RCLError as error:  # it has ended meanwhile
-            logger.debug(f"Failed to cancel goal in cancel callback: {error}")
-            return False
-        return True
-
     def _execute_result_request(self, request: Any) -> None:
-        goal_id = request.message.goal_id
-        self._debug("Result request received for goal with ID: {}", goal_id)
-        handle = self._goals.get(key_of(goal_id))
+        handle = self._goals.get(key_of(request.message.goal_id))
         if handle is None:
-            self._debug("Sending result response for unknown goal ID: {}", goal_id)
             request.answer(self._action_type.Impl.GetResultService.Response(status=GoalStatus.STATUS_UNKNOWN))
         elif handle._response is None:
             handle._asked.append(request)
@@ -259,7 +235,6 @@ class ActionServer(ActionEndpoint):
         self, execute_callback: Callable[..., Any], goal_handle: ServerGoalHandle, ready: int
     ) -> None:
         logger, simulation = self._node.get_logger(), self._node._ros_simulation
-        self._debug("Executing goal with ID {}", goal_handle.goal_id)
         simulation.sleep_until(simulation.now + OVERHEAD)
         try:
             with self._traced_run(execute_callback, ready):
@@ -271,8 +246,16 @@ class ActionServer(ActionEndpoint):
         if goal_handle.is_active:
             logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_handle.goal_id.uuid}")
             goal_handle.abort()
-        self._debug(f"Goal with ID {{}} finished with state {goal_handle.status}", goal_handle.goal_id)
-        goal_handle._finish(self._result_response(goal_handle.status, result))
+        try:
+            response = self._action_type.Impl.GetResultService.Response(status=goal_handle.status, result=result)
+        except AssertionError as error:
+            name = self._action_type.__name__
+            error.add_note(
+                f"The execute callback of {self._name} returned {result!r}, where a {name}.Result is expected: end it "
+                f"with `return {name}.Result(…)`, on every way out."
+            )
+            raise
+        goal_handle._finish(response)
 
     @contextmanager
     def _traced_run(self, callback: Callable[..., Any], ready: int) -> Iterator[None]:
@@ -296,17 +279,6 @@ class ActionServer(ActionEndpoint):
     def notify_goal_done(self) -> None:
         """A goal has ended: look which ones have expired. The server does that for itself, too."""
         self._forget_expired()
-
-    def _result_response(self, status: int, result: Any) -> Any:
-        try:
-            return self._action_type.Impl.GetResultService.Response(status=status, result=result)
-        except AssertionError as error:
-            name = self._action_type.__name__
-            error.add_note(
-                f"The execute callback of {self._name} returned {result!r}, where a {name}.Result is expected: end it "
-                f"with `return {name}.Result(…)`, on every way out."
-            )
-            raise
 
     def _publish_status(self) -> None:
         self._forget_expired()
