@@ -19,7 +19,6 @@ from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, begi
 if TYPE_CHECKING:
     from turtle_lesson.ros.rmw.trace import Callback
 
-    from ._executor_base import ExecutorBase
     from .executors import Executor
     from .node import Node
 
@@ -158,7 +157,7 @@ class Entity(Destroyable):
                 make_ready = executor._make_ready
                 make_ready(strand)
 
-    def _run(self, executor: ExecutorBase, chosen: bool) -> None:
+    def _run(self, executor: Executor, chosen: bool) -> None:
         """Take one piece of work and call the callback with it, and then free its group.
 
         An executor that has chosen it for its cycle has taken the group. One that found only this signal has not: then it is
