@@ -5,8 +5,6 @@ Nothing else of that half is here: what stands in its place is Python.
 
 from __future__ import annotations
 
-from typing import NoReturn
-
 
 class InvalidHandle(RuntimeError):
     """Something is used after it was destroyed."""
@@ -38,14 +36,3 @@ class UnsupportedEventTypeError(RCLError):
 
 class TimerCancelledError(RCLError):
     """A cancelled timer is called."""
-
-
-def __getattr__(name: str) -> NoReturn:
-    if name.startswith("__"):
-        raise AttributeError(name)
-    raise AttributeError(
-        f"rclpy._rclpy_pybind11 has no {name!r} here: on a robot it is rclpy's internal half, written in C++, and its names "
-        "change between releases. What programs need from it is in rclpy's own modules.",
-        name=name,
-        obj=None,
-    )

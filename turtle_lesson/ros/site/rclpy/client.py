@@ -183,9 +183,7 @@ class Client(Entity):
 
     def remove_pending_request(self, future: Future) -> None:
         """Stop waiting for the response of a future."""
-        for number, waiting in list(self._waiting.items()):
-            if waiting is future:
-                del self._waiting[number]
+        self._waiting.pop(future._request_number, None)
 
     def destroy(self) -> None:
         """Leave the service; answers under way are dropped."""

@@ -8,6 +8,7 @@ from typing import Any
 
 from turtle_lesson.ros.idl import checks
 from turtle_lesson.ros.rmw.writer import Writer
+from turtle_lesson.ros.sim.simulation import NEVER
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
 from ._blocking import drives_the_simulation
@@ -82,6 +83,7 @@ class Publisher(Destroyable):
         """Say that this publisher is alive. One with MANUAL_BY_TOPIC says or publishes something within each lease."""
         self._end("failed to assert liveliness: publisher's").assert_liveliness()
 
+    @drives_the_simulation
     def wait_for_all_acked(self, timeout: Duration = FOR_EVER) -> bool:
         """Wait until all reliable subscriptions have what was published; False if the timeout is over before that.
 
@@ -90,9 +92,13 @@ class Publisher(Destroyable):
         if not isinstance(timeout, Duration):
             raise TypeError(f"the timeout must be a Duration, got {timeout!r}: try Duration(seconds=1)")
         writer = self._end("failed to wait for all acked: publisher's")
-        if timeout.nanoseconds == 0 or writer.next_acknowledgement() is None:
-            return writer.next_acknowledgement() is None
-        return _wait_for_all_acked(writer, timeout.nanoseconds)
+        simulation = writer.topic.simulation
+        deadline = simulation.now + timeout.nanoseconds if timeout.nanoseconds >= 0 else NEVER
+        while (look := writer.next_acknowledgement()) is not None:
+            if simulation.now >= deadline:
+                return False
+            simulation.sleep_until(min(max(look, simulation.now + 1), deadline))
+        return True
 
     def destroy(self) -> None:
         """Leave the topic."""
@@ -102,15 +108,3 @@ class Publisher(Destroyable):
             self._writer.node.process.world.graph.remove_topic_end(self._writer)
             self._destroyed = True
             self._write = lambda message: self._check_alive("Failed to publish: publisher's")
-
-
-@drives_the_simulation
-def _wait_for_all_acked(writer: Writer, timeout: int) -> bool:
-    simulation = writer.topic.simulation
-    deadline = simulation.now + timeout if timeout > 0 else None
-    while (look := writer.next_acknowledgement()) is not None:
-        if deadline is not None and simulation.now >= deadline:
-            return False
-        look = max(look, simulation.now + 1)
-        simulation.sleep_until(look if deadline is None else min(look, deadline))
-    return True

@@ -63,13 +63,6 @@ class Future:
         state = "cancelled" if self._cancelled else "done" if self._done else "waiting"
         return f"<rclpy.task.{type(self).__name__} {state}>"
 
-    @property
-    def _state(self) -> FutureState:
-        """As newer releases keep it: some programs look."""
-        if self._cancelled:
-            return FutureState.CANCELLED
-        return FutureState.FINISHED if self._done else FutureState.PENDING
-
     def __await__(self) -> Generator[Future, None, Any]:
         if running_strand() is None and asyncio._get_running_loop() is not None:
             raise RuntimeError(
@@ -139,7 +132,8 @@ class Future:
     def set_exception(self, exception: BaseException) -> None:
         """Now it is done, and has failed. An exception that is never asked for is reported at the end."""
         self._exception = exception
-        self._never_retrieved = weakref.finalize(self, _tell_never_retrieved, str(exception))
+        text = f"The following exception was never retrieved: {exception}"
+        self._never_retrieved = weakref.finalize(self, print, text, file=sys.stderr)
         self._never_retrieved.atexit = False
         self._done = True
         self._cancelled = False
@@ -170,18 +164,14 @@ class Future:
             self._answered_by._waiting.pop(self._request_number, None)
         for callback in callbacks:
             if self._executor is None:
-                self._call_or_warn(callback)
+                try:
+                    callback(self)
+                except Exception as error:  # the code that sets the result is not to blame for what is done with it
+                    warnings.warn(f"Unhandled exception in done callback: {error!r} in {callback!r}", stacklevel=3)
             elif getattr(callback, "_at_once", False):
                 callback(self)
             else:
                 self._executor.create_task(callback, self)
-
-    def _call_or_warn(self, callback: Callable[[Future], Any]) -> None:
-        """The code that sets the result is not to blame for what is done with it, so an error is only reported."""
-        try:
-            callback(self)
-        except Exception as error:
-            warnings.warn(f"Unhandled exception in done callback: {error!r} in {callback!r}", stacklevel=4)
 
     def _call(self, callback: Callable[[Future], Any]) -> None:
         if self._executor is None or getattr(callback, "_at_once", False):
@@ -199,10 +189,6 @@ def _called_by_asyncio(callback: Callable[..., Any], context: Any) -> Callable[[
 
     call._at_once = call._of_asyncio = True  # type: ignore[attr-defined]
     return call
-
-
-def _tell_never_retrieved(text: str) -> None:
-    print(f"The following exception was never retrieved: {text}", file=sys.stderr)
 
 
 class Task(Future):

@@ -59,9 +59,8 @@ class TimeSource:
             clock._set_ros_time_is_active(enabled)
         if enabled:
             self._subscribe()
-        elif self._clock_sub is not None and self._node is not None:
-            self._node.destroy_subscription(self._clock_sub)
-            self._clock_sub = None
+        else:
+            self._stop_hearing()
 
     def _subscribe(self) -> None:
         node = self._node
@@ -101,18 +100,17 @@ class TimeSource:
         asked = node.get_parameter(USE_SIM_TIME_NAME)
         if asked.type_ == Parameter.Type.BOOL:
             self.ros_time_is_active = asked.value
-        elif asked.type_ != Parameter.Type.NOT_SET:
-            node.get_logger().error(f"Invalid type for parameter '{USE_SIM_TIME_NAME}' {asked.type_!r} should be bool")
-        else:
-            node.get_logger().debug(f"'{USE_SIM_TIME_NAME}' parameter not set, using wall time by default")
         node.add_on_set_parameters_callback(self._on_parameter_event)
 
     def detach_node(self) -> None:
         """No longer hear through the node."""
+        self._stop_hearing()
+        self._node = None
+
+    def _stop_hearing(self) -> None:
         if self._clock_sub is not None and self._node is not None:
             self._node.destroy_subscription(self._clock_sub)
         self._clock_sub = None
-        self._node = None
 
     def attach_clock(self, clock: ROSClock) -> None:
         """Set this clock, too. Raises ValueError for any but a ROSClock."""
@@ -134,15 +132,8 @@ class TimeSource:
         from rcl_interfaces.msg import SetParametersResult
 
         for parameter in parameter_list:
-            if parameter.name != USE_SIM_TIME_NAME:
-                continue
-            if parameter.type_ == Parameter.Type.BOOL:
+            if parameter.name == USE_SIM_TIME_NAME and parameter.type_ == Parameter.Type.BOOL:
                 self.ros_time_is_active = parameter.value
-                break
-            reason = f"{USE_SIM_TIME_NAME} parameter set to something besides a bool"
-            if self._node is not None:
-                self._node.get_logger().error(reason)
-            return SetParametersResult(successful=False, reason=reason)
         return SetParametersResult(successful=True)
 
     def check_it_may_hear(self, strand: Strand) -> None:
