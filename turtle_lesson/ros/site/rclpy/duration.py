@@ -62,19 +62,16 @@ class Duration:
     __hash__ = None  # type: ignore[assignment]
 
     def __lt__(self, other: object) -> bool:
-        return self._nanoseconds < _ns(other)
+        return self._nanoseconds < other._nanoseconds if isinstance(other, Duration) else NotImplemented
 
     def __add__(self, other: object) -> Duration:
-        if not isinstance(other, (Duration, int, float)):
+        if not isinstance(other, Duration):
             return NotImplemented  # a Time knows how to add a duration
         current_world().release.note_use(DURATION_ARITHMETIC)
-        return Duration(nanoseconds=self._nanoseconds + _ns(other))
+        return Duration(nanoseconds=self._nanoseconds + other._nanoseconds)
 
     def __sub__(self, other: object) -> Duration:
-        if not isinstance(other, (Duration, int, float)):
-            return NotImplemented
-        current_world().release.note_use(DURATION_ARITHMETIC)
-        return Duration(nanoseconds=self._nanoseconds - _ns(other))
+        return self + Duration(nanoseconds=-other._nanoseconds) if isinstance(other, Duration) else NotImplemented
 
     def __mul__(self, factor: object) -> Duration:
         if not isinstance(factor, (int, float)):
@@ -92,13 +89,6 @@ def equals_no_other_thing(what: str, other: object) -> Any:
         "Compare like with like, such as time.nanoseconds == 5. To ask whether there is one, write `is None`."
     )
     raise error
-
-
-def _ns(other: object) -> int:
-    if isinstance(other, Duration):
-        return other.nanoseconds
-    hint = f": write Duration(seconds={other!r}) if you mean seconds" if isinstance(other, (int, float)) else ""
-    raise TypeError(f"expected a Duration, got {other!r}{hint}")
 
 
 Infinite = Duration(nanoseconds=2**63 - 1)

@@ -41,32 +41,37 @@ class NameValidationException(Exception):
         super().__init__(names.flaw_text(name_type, name, names.Flaw(error_msg, invalid_index)), *args)
 
 
-class InvalidNamespaceException(NameValidationException):
+class _InvalidName(NameValidationException):
+    """Base class: of which kind of name it is, is said by the class."""
+
+    _kind = ""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
+        super().__init__(self._kind, name, error_msg, invalid_index)
+
+
+class InvalidNamespaceException(_InvalidName):
     """A namespace breaks the rules."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
-        super().__init__("namespace", name, error_msg, invalid_index)
+    _kind = "namespace"
 
 
-class InvalidNodeNameException(NameValidationException):
+class InvalidNodeNameException(_InvalidName):
     """A node's name breaks the rules."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
-        super().__init__("node name", name, error_msg, invalid_index)
+    _kind = "node name"
 
 
-class InvalidTopicNameException(NameValidationException):
+class InvalidTopicNameException(_InvalidName):
     """A topic's name breaks the rules."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
-        super().__init__("topic name", name, error_msg, invalid_index)
+    _kind = "topic name"
 
 
-class InvalidServiceNameException(NameValidationException):
+class InvalidServiceNameException(_InvalidName):
     """A service's name breaks the rules."""
 
-    def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
-        super().__init__("service name", name, error_msg, invalid_index)
+    _kind = "service name"
 
 
 class ParameterException(Exception):

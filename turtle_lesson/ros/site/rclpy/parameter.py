@@ -41,17 +41,11 @@ class Parameter:
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
             """The type of a Python value; TypeError if no parameter can have it."""
-            if parameter_value is None:
-                return cls.NOT_SET
-            for name in ("BOOL", "INTEGER", "DOUBLE", "STRING"):
-                if isinstance(parameter_value, _PYTHON[name]):
-                    return cls[name]
-            if not isinstance(parameter_value, (list, tuple, array.array)):
-                raise TypeError(f"The given value is not one of the allowed types '{parameter_value}'.")
-            for name in ("BYTE", "BOOL", "INTEGER", "DOUBLE", "STRING"):
-                if all(isinstance(value, _PYTHON[name]) for value in parameter_value):
-                    return cls[f"{name}_ARRAY"]
-            raise TypeError(f"The given value is not a list of one of the allowed types '{parameter_value}'.")
+            for kind in cls:
+                if kind.check(parameter_value):
+                    return kind
+            what = "a list of one" if isinstance(parameter_value, (list, tuple, array.array)) else "one"
+            raise TypeError(f"The given value is not {what} of the allowed types '{parameter_value}'.")
 
         def check(self, parameter_value: Any) -> bool:
             """Whether a Python value can have this type. An empty list can be a list of any type."""

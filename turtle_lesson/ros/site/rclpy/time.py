@@ -73,10 +73,7 @@ class Time:
 
     def __add__(self, other: object) -> Time:
         if isinstance(other, Duration):
-            try:
-                return Time(nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self.clock_type)
-            except OverflowError:
-                raise OverflowError("Addition leads to overflow in C storage.") from None
+            return Time(nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self.clock_type)
         return NotImplemented
 
     __radd__ = __add__
