@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.runtime.world import current_process
 from turtle_lesson.ros.sim.strand import running_strand
 
-from ._blocking import drive, in_a_plain_cell, spin_live
+from ._blocking import drive, spin_live
 from ._hints import explain_missing
 from ._state import RclpyState
 from .context import Context
@@ -166,7 +166,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     In a plain notebook cell this is live, at the pace of the wall clock, until the cell is interrupted.
     """
     executor = get_global_executor() if executor is None else executor
-    if in_a_plain_cell():
+    if running_strand() is None:
         spin_live(lambda: _spin(node, executor))
     else:
         _spin(node, executor)

@@ -27,11 +27,6 @@ SAY_AFTER = 5.0
 """Real time, s, after which a cell that spins says how to stop it."""
 
 
-def in_a_plain_cell() -> bool:
-    """Whether the running code is no simulated process (a notebook cell, a test, a script)."""
-    return running_strand() is None
-
-
 def drives_the_simulation(function: Callable[..., T]) -> Callable[..., T]:
     """Decorator for a blocking call: from a plain cell, it is run as part of the notebook's process until done."""
 

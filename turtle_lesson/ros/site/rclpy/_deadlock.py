@@ -87,11 +87,6 @@ def holds_group(group: Any) -> bool:
     return holder is not None and any(entity is holder for entity in callbacks_around())
 
 
-def register_worker(strand: Strand, executor: Executor) -> None:
-    """Remember that a strand only runs the callbacks that an executor gives it."""
-    strand.process.state(RclpyState).workers[strand] = executor
-
-
 def executor_of_worker(strand: Strand) -> Executor | None:
     """The executor that gives this strand its work; None for the main program."""
     return strand.process.state(RclpyState).workers.get(strand)

@@ -43,11 +43,6 @@ class NodeEntities(NodeGraph):
         self._ros_rate_group: CallbackGroup | None = None
         self._ros_clock = ROSClock()
 
-    def _ros_check_context(self, what: str) -> None:
-        """Raise RCLError after rclpy.shutdown(), for what needs a context, but no place in the graph."""
-        if self._ros_shut_down:
-            raise not_valid(what)
-
     def _ros_keep(self, entity: Any) -> Any:
         self._ros_made += 1
         entity._number, entity._node = self._ros_made, self
@@ -153,7 +148,8 @@ class NodeEntities(NodeGraph):
 
         A destroyed node can make timers, too, but no executor has it any more, so they never tick.
         """
-        self._ros_check_context("timer")
+        if self._ros_shut_down:
+            raise not_valid("timer")
         period = period_ns(timer_period_sec)
         group = callback_group or self._ros_default_callback_group
         return self._ros_keep(Timer(callback, group, period, clock or self._ros_clock, autostart=autostart))
@@ -200,7 +196,8 @@ class NodeEntities(NodeGraph):
     ) -> GuardCondition:
         """Have `callback()` called whenever the guard condition is triggered."""
         self._ros_check_alive()
-        self._ros_check_context("guard_condition")
+        if self._ros_shut_down:
+            raise not_valid("guard_condition")
         group = callback_group or self._ros_default_callback_group
         return self._ros_keep(GuardCondition(callback, group, context=self._ros_context))
 

@@ -26,8 +26,8 @@ from turtle_lesson.ros.sim.strand import Strand, running_strand
 from turtle_lesson.ros.stdlib.deadlock import IDLE, look_after, wait_in_vain
 from turtle_lesson.ros.stdlib.threads import number_of_pool
 
-from ._blocking import drive, drives_the_simulation, in_a_plain_cell, spin_live
-from ._deadlock import executor_of_worker, is_notebook, others_may_act, register_worker, why_never_done
+from ._blocking import drive, drives_the_simulation, spin_live
+from ._deadlock import executor_of_worker, is_notebook, others_may_act, why_never_done
 from ._entity import NO_TURN, WAITABLE, Entity
 from ._hints import explain_call, no_node
 from ._state import RclpyState
@@ -297,7 +297,7 @@ class Executor:
 
     def spin(self) -> None:
         """Run callbacks until shutdown. From a plain notebook cell: live, until the cell is interrupted."""
-        if in_a_plain_cell():
+        if running_strand() is None:
             spin_live(self._spin)
         else:
             self._spin()
@@ -592,7 +592,6 @@ class MultiThreadedExecutor(Executor):
         return super()._spun_by_another(strand) and free > 0
 
     def _is_worker(self, strand: Strand) -> bool:
-        """Whether this strand is one of this executor's threads."""
         return executor_of_worker(strand) is self
 
     def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
@@ -619,15 +618,11 @@ class MultiThreadedExecutor(Executor):
         ):  # as the real one does (executors.py); a single-threaded one raises it
             super()._spin_once(strand, deadline, condition)
         if is_notebook(strand.process):
-            self._run_ready_workers(strand)
-
-    def _run_ready_workers(self, strand: Strand) -> None:
-        """When a cell's call returns, time stands still: what is ready must run before, or it would not be seen."""
-        simulation = self._simulation
-        simulation.at(simulation.now, simulation.wake, strand)
-        simulation.park(strand)
-        if self._failures:
-            raise self._failures.pop(0)
+            # When a cell's call returns, time stands still: what is ready must run before, or it would not be seen.
+            self._simulation.at(self._simulation.now, self._simulation.wake, strand)
+            self._simulation.park(strand)
+            if self._failures:
+                raise self._failures.pop(0)
 
     def _execute(self, job: Job) -> None:
         worker = self._idle.pop() if self._idle else self._new_worker()
@@ -639,11 +634,8 @@ class MultiThreadedExecutor(Executor):
             self._process.before_exit.append(self._wait_for_callbacks)
         worker = _Worker(self, f"ThreadPoolExecutor-{self._pool}_{self._threads}")
         self._threads += 1
-        register_worker(worker._strand, self)
+        self._process.state(RclpyState).workers[worker._strand] = self
         return worker
-
-    def _execute_here(self, job: Job) -> None:
-        super()._execute(job)
 
     def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
         """Stop: no more callbacks are run. Since Kilted, wait until those that have begun are done, unless told not to."""
@@ -697,7 +689,7 @@ class _Worker:
             self._strand.waits_for = None
             job, self._job = self._job, None
             try:
-                executor._execute_here(job)
+                Executor._execute(executor, job)
             except GreenletExit:
                 raise
             except BaseException as error:  # also sys.exit(): it ends the program where the executor is spun
