@@ -1,16 +1,20 @@
-"""The table of an experiment: what is shown of it, files, and what the runs have in common."""
+"""The table of an experiment: what is shown of it, files, going on with it, and what the runs have in common."""
 
 from __future__ import annotations
 
+import re
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas
 import pytest
 
-from turtle_lesson.experiments import ExperimentError, Results
+from turtle_lesson.experiments import ExperimentError, Results, experiment
 from turtle_lesson.experiments.one_run import Ending, Run
 from turtle_lesson.experiments.results import wilson
+from turtle_lesson.experiments.table import read
 
 VALUES = [
     {"seconds": 1.5, "name": 'a, "b"\n# c', "hits": 3, "fast": True, "mixed": 1, "empty": "", "odd": "a\rb"},
@@ -75,6 +79,8 @@ def test_other_programs_read_the_files(tmp_path: Path) -> None:
     frame = pandas.read_csv(results.save(tmp_path / "runs.csv"), comment="#")
     np.testing.assert_equal(frame["seconds"].to_numpy(), results["seconds"])
     assert frame["goal"].tolist() == ["(1, 2.5)"] * 8
+    parquet = pandas.read_parquet(results.save(tmp_path / "runs.parquet"))
+    np.testing.assert_equal(parquet["seconds"].to_numpy(), results["seconds"])
     head = (tmp_path / "runs.csv").read_text().splitlines()[:4]
     assert head == [
         '# world: {"package": null, "distro": "jazzy"}',
@@ -82,8 +88,98 @@ def test_other_programs_read_the_files(tmp_path: Path) -> None:
         '# swept: ["order", "gain", "goal"]',
         "# missing: 2",
     ]
-    with pytest.raises(ExperimentError, match=r"saved as \"….csv\", got 'runs.txt'"):
+    with pytest.raises(ExperimentError, match=r"saved as \"….csv\" or \"….parquet\", got 'runs.txt'"):
         table().save("runs.txt")
+
+
+@pytest.mark.parametrize("kind", ["csv", "parquet"])
+def test_a_file_gives_back_every_value_as_it_was(kind: str, tmp_path: Path) -> None:
+    results = table()
+    found, head = read(results.save(tmp_path / f"runs.{kind}"))
+    assert repr(found.rows) == repr(results.rows)
+    assert [[type(value) for value in row.values()] for row in found] == [
+        [type(value) for value in row.values()] for row in results
+    ]
+    assert (found.columns, head) == (results.columns, results.about | {"swept": results.swept, "missing": 2})
+
+
+def test_what_is_no_table_is_refused(tmp_path: Path) -> None:
+    damaged = '# columns: {"a": "int"}\na\n1 +\n'
+    for name, text in (("a.csv", "run,seed\n1,2\n"), ("b.csv", ""), ("c.parquet", "x"), ("d.csv", damaged)):
+        (tmp_path / name).write_text(text)
+        with pytest.raises(ExperimentError, match=name):
+            read(tmp_path / name)
+
+
+# -- going on ------------------------------------------------------------------------------------------------------------
+
+
+class Counted:
+    """Stands for the worker processes: what is carried out is only noted."""
+
+    def __init__(self) -> None:
+        self.runs: list[Run] = []
+        self.jobs = 0
+
+    def pool(self, setting: Any, jobs: int) -> Counted:
+        self.jobs = jobs
+        return self
+
+    def carry_out(self, runs: list[Run]) -> Any:
+        self.runs = list(runs)
+        for run in runs[::-1]:
+            died = run.number == 1 and len(runs) > 2
+            yield run, Ending("worker died") if died else Ending("ok", {"twice": 2 * run.parameters["gain"]}, 1.0)
+
+    def close(self) -> None: ...
+
+
+@pytest.fixture
+def counted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Counted:
+    counted = Counted()
+    module = import_module("turtle_lesson.experiments.experiment")  # the package's attribute is the function
+    monkeypatch.setattr(module, "LocalPool", counted.pool)
+    monkeypatch.chdir(tmp_path)
+    return counted
+
+
+FACTOR = 1.0
+
+
+def drive(lesson: Any, gain: float, loss: float = 0.0) -> float:
+    return FACTOR * gain
+
+
+def test_a_saved_experiment_goes_on_with_what_is_new_and_what_its_workers_died_of(counted: Counted) -> None:
+    experiment(drive, seeds=range(2), gain=[1.0, 2.0]).save("runs.csv")
+    assert len(counted.runs) == 4
+    results = experiment(drive, seeds=range(3), gain=[1.0, 2.0], resume="runs.csv", jobs=8)
+    assert counted.jobs == 3, "no more workers than runs"
+    assert [(run.seed, run.parameters["gain"]) for run in counted.runs] == [(1, 1.0), (2, 1.0), (2, 2.0)]
+    assert [row["run"] for row in results] == list(range(6)) and results.rows[3]["twice"] == 4.0
+    results.save("more.parquet")
+    whole = experiment(drive, seeds=range(3), gain=[1.0, 2.0], resume="more.parquet")
+    assert [run.number for run in counted.runs] == [1] and len(whole.ok) == 6
+    again = experiment(drive, seeds=range(3), gain=[1.0, 2.0], resume=whole.save("whole.csv"))
+    assert [run.number for run in counted.runs] == [1] and again.rows == whole.rows, "all is known"
+
+
+def test_a_table_of_another_experiment_is_not_gone_on_with(counted: Counted, monkeypatch: pytest.MonkeyPatch) -> None:
+    experiment(drive, gain=1.0).save("runs.csv")
+    before = counted.runs
+    for options, said in (
+        ({"loss": [0.1]}, "its swept is ['gain'], and that of this experiment ['gain', 'loss']"),
+        ({"robot_time": 10}, "its robot_time is 600.0, and that of this experiment 10.0"),
+        ({"package": None}, "its world is"),
+    ):
+        with pytest.raises(ExperimentError, match=re.escape(f"runs.csv cannot be resumed: {said}")):
+            experiment(drive, gain=1.0, resume="runs.csv", **options)
+    monkeypatch.setattr("test_experiment_results.FACTOR", 2.0)
+    with pytest.raises(ExperimentError, match="its function is 'drive"):
+        experiment(drive, gain=1.0, resume="runs.csv")
+    with pytest.raises(ExperimentError, match=r"there is no file no\.csv"):
+        experiment(drive, gain=1.0, resume="no.csv")
+    assert counted.runs is before
 
 
 # -- statistics ----------------------------------------------------------------------------------------------------------

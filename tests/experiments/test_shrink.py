@@ -186,6 +186,14 @@ def test_the_same_failure_whatever_the_workers(capsys: pytest.CaptureFixture[str
     assert smallest == results.smallest
 
 
+def test_what_is_known_already_is_not_carried_out_again() -> None:
+    runs, first, pool = plan(range(5), SWEEP), Backwards(), Backwards()
+    known = list(first.carry_out([run for run in runs if run.number in (0, 5, 29, 38)]))
+    endings, _ = search_failure(pool, runs, known)
+    assert [run.number for run, _ in endings] == list(range(29))
+    assert sorted(pool.carried_out[:27]) == [number for number in range(29) if number not in (0, 5)]
+
+
 def test_nothing_that_fails_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     runs = plan(range(3), {"loss": [0.1]})
     endings, smallest = search_failure(Backwards(), runs)

@@ -23,7 +23,7 @@ from .one_run import OK, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
 from .pools import LocalPool, cores
 from .replay import Replay
-from .results import Results, described
+from .results import Results, described, endings_of
 from .shrink import smallest_change
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ def experiment(
     robot_time: float = 600.0,
     cpu_time: float = 60.0,
     until: str | None = None,
+    resume: str | Path | None = None,
     **parameters: Any,
 ) -> Results:
     """Call `function(lesson, **parameters)` in a fresh world for each seed and each combination of parameter values.
@@ -76,6 +77,7 @@ def experiment(
         package, simulator, distro, start_order: as for `start`.
         robot_time, cpu_time: how many seconds a run may take, of robot time and of computing.
         until: "failure" carries out runs in order until one fails, and looks for the smallest change that still fails.
+        resume: a file of `results.save(…)`: runs that are in it are not carried out again.
         parameters: by name, a list of values to sweep, or a single one. The function's own defaults hold for all others.
 
     Raises ExperimentError, a ValueError, for an experiment that cannot be carried out.
@@ -89,19 +91,20 @@ def experiment(
         raise ExperimentError(f'until must be "failure" or None, got {until!r}')
     setting = setting_for(function, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time, **world)
     about = described(function, setting, world)
+    known = [] if resume is None else endings_of(resume, runs, about)
     smallest = None
     pool: LocalPool | ClusterPool
     if client is None:
-        pool = LocalPool(setting, min(jobs or defaults.get().jobs or cores(), len(runs)))
+        pool = LocalPool(setting, min(jobs or defaults.get().jobs or cores(), max(len(runs) - len(known), 1)))
     else:
         from .cluster import ClusterPool  # here, since Dask is optional, and takes long to import
 
         pool = ClusterPool(setting, client)
     with closing(pool):
         if until is None:
-            endings = carry_out(pool, runs)
+            endings = known + carry_out(pool, left_of(runs, known))
         else:
-            endings, smallest = search_failure(pool, runs)
+            endings, smallest = search_failure(pool, runs, known)
     missing = len(runs) - len(endings)
     results = Results(endings, runs[0].parameters, about=about, missing=missing, function=function, setting=setting)
     results.smallest = smallest
@@ -142,25 +145,36 @@ def carry_out(
     done: list[tuple[Run, Ending]] = []
     try:
         with bar(len(runs)) as told:
-            for first in range(0, len(runs), at_once or len(runs)):
-                for run, ending in pool.carry_out(runs[first : first + (at_once or len(runs))]):
+            step = at_once or len(runs) or 1
+            for first in range(0, len(runs), step):
+                for run, ending in pool.carry_out(runs[first : first + step]):
                     done.append((run, ending))
                     told(ending.outcome != OK)
                 if at_once and any(ending.outcome != OK for _, ending in done):
                     break
     except KeyboardInterrupt:
-        print(f"Stopped: {len(done)} of {len(runs)} runs were over. They are in the table.")
+        print(
+            f"Stopped: {len(done)} of {len(runs)} runs were over. They are in the table; resume= goes on from a saved one."
+        )
     return done
 
 
+def left_of(runs: Sequence[Run], known: Sequence[tuple[Run, Ending]]) -> list[Run]:
+    """The runs of which it is not known yet what comes of them."""
+    there = {run.number for run, _ in known}
+    return [run for run in runs if run.number not in there]
+
+
 def search_failure(
-    pool: LocalPool | ClusterPool, runs: Sequence[Run]
+    pool: LocalPool | ClusterPool, runs: Sequence[Run], known: Sequence[tuple[Run, Ending]] = ()
 ) -> tuple[list[tuple[Run, Ending]], dict[str, Any] | None]:
     """Carry out runs in their order until one fails; then look for the smallest change with which that fails.
 
     What was carried out beyond the failing run, since workers work side by side, is left out of the table.
     """
-    done = sorted(carry_out(pool, runs, AT_ONCE), key=lambda each: each[0].number)
+    failing = min((run.number for run, ending in known if ending.outcome != OK), default=len(runs))
+    carried_out = carry_out(pool, left_of(runs[:failing], known), AT_ONCE)
+    done = sorted([*known, *carried_out], key=lambda each: each[0].number)
     first = next((at for at, (_, ending) in enumerate(done) if ending.outcome != OK), None)
     if first is None:
         if len(done) == len(runs):

@@ -16,9 +16,9 @@ import numpy as np
 from ..lab import drawing
 from ..lab.drawing import Picture
 from ..lab.words import count, enumerated
-from .one_run import OK, VERSION, Ending, ExperimentError, Run, Setting, name_of
+from .one_run import CPU_TIME, DIED, OK, VERSION, Ending, ExperimentError, Run, Setting, name_of
 from .payload import hash_of, hash_of_folders
-from .table import Table, save, text_of
+from .table import Table, read, save, text_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -116,10 +116,10 @@ class Results(Table):
         return replay_of(self, number, function)
 
     def save(self, path: str | Path) -> Path:
-        """Write the table to a file such as "runs.csv", with versions and settings.
+        """Write the table to a file, "runs.csv" or "runs.parquet", with versions and settings; `experiment(resume=…)` reads it.
 
-        These are the lines at its beginning that start with "#": `pandas.read_csv(path, comment="#")` passes over them.
-        Raises ExperimentError for another kind of file.
+        In a CSV file these are the lines at its beginning that start with "#": `pandas.read_csv(path, comment="#")` passes
+        over them. Raises ExperimentError for another kind of file.
         """
         return save(self, self.about | {"swept": self.swept, "missing": self.missing}, Path(path))
 
@@ -215,6 +215,31 @@ def described(function: Callable[..., Any], setting: Setting, world: dict[str, A
         "robot_time": float(setting.robot_time),
         "world": world,
     }
+
+
+def endings_of(path: str | Path, runs: Sequence[Run], mine: dict[str, Any]) -> list[tuple[Run, Ending]]:
+    """What came of those runs that a saved table has. Runs whose process was ended are not among them: they are tried again.
+
+    Raises ExperimentError, which says what differs, where the table is of another experiment than `mine`.
+    """
+    table, theirs = read(Path(path))
+    mine = mine | {"swept": list(runs[0].parameters)}
+    for name in ("swept", "turtle_lesson", "function", "folders", "simulator", "robot_time", "world"):
+        if theirs.get(name) != mine[name]:
+            raise ExperimentError(
+                f"{path} cannot be resumed: its {name} is {theirs.get(name)!r}, and that of this experiment {mine[name]!r}"
+            )
+    returned = [name for name in table.columns if name not in {*FIRST, *mine["swept"], "outcome", *LAST}]
+    rows = {repr((row["seed"], *(row[name] for name in mine["swept"]))): row for row in table.rows}
+    found = []
+    for run in runs:
+        row = rows.get(repr((run.seed, *run.parameters.values())))
+        if row is not None and row["outcome"] not in (CPU_TIME, DIED):
+            values = {name: row[name] for name in returned if row["outcome"] == OK}
+            found.append(
+                (run, Ending(row["outcome"], values, row["robot_time"], *(row[name] or "" for name in LAST[1:])))
+            )
+    return found
 
 
 # -- the picture ---------------------------------------------------------------------------------------------------------

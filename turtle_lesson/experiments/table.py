@@ -1,12 +1,14 @@
-"""A table: rows as dicts, columns as arrays; what print and a notebook show; a CSV file of it."""
+"""A table: rows as dicts, columns as arrays; what print and a notebook show; CSV and Parquet files of it."""
 
 from __future__ import annotations
 
+import ast
 import csv
 import html
 import io
 import json
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -99,19 +101,86 @@ def text_of(value: Any) -> str:
 # -- files ---------------------------------------------------------------------------------------------------------------
 
 
+KEY = b"turtle_lesson"
+"""What a Parquet file's metadata calls ours."""
+
+
 def save(table: Table, head: dict[str, Any], path: Path) -> Path:
-    """Write a table to a CSV file, below lines that begin with "#": what else is known of it, as JSON."""
+    """Write a table to a CSV or Parquet file; `head` is what else is known of it, by name, as JSON can hold it.
+
+    A column of one type is written as it is; one that holds several types, tuples or odd texts, as Python's literals.
+    """
     check_suffix(path)
-    text = io.StringIO(newline="")
-    text.writelines(f"# {name}: {json.dumps(value)}\n" for name, value in head.items())
-    writer = csv.DictWriter(text, table.columns, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(table.rows)
-    files.write(path, text.getvalue())
+    kinds = {column: _kind([row[column] for row in table.rows if row[column] is not None]) for column in table.columns}
+    head = head | {"columns": kinds}
+    cells = [
+        {name: row[name] if kind != "literal" or row[name] is None else repr(row[name]) for name, kind in kinds.items()}
+        for row in table.rows
+    ]
+    if path.suffix.lower() == ".csv":
+        text = io.StringIO(newline="")
+        text.writelines(f"# {name}: {json.dumps(value)}\n" for name, value in head.items())
+        writer = csv.DictWriter(text, list(kinds), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(cells)
+        files.write(path, text.getvalue())
+    else:
+        arrow, parquet = _pyarrow()
+        types = {"int": arrow.int64(), "float": arrow.float64(), "bool": arrow.bool_()}
+        fields = [(name, types.get(kind, arrow.string())) for name, kind in kinds.items()]
+        schema = arrow.schema(fields, metadata={KEY: json.dumps(head)})
+        parquet.write_table(arrow.Table.from_pylist(cells, schema=schema), path)
     return path
 
 
 def check_suffix(path: Path) -> None:
     """Raise ExperimentError for a file that no table is saved in."""
-    if path.suffix.lower() != ".csv":
-        raise ExperimentError(f'a table is saved as "….csv", got {str(path)!r}')
+    if path.suffix.lower() not in (".csv", ".parquet"):
+        raise ExperimentError(f'a table is saved as "….csv" or "….parquet", got {str(path)!r}')
+
+
+def read(path: Path) -> tuple[Table, dict[str, Any]]:
+    """Read a table that `save` has written, and what else was saved with it. Raises ExperimentError where it is none."""
+    try:
+        if path.suffix.lower() == ".parquet":
+            arrow = _pyarrow()[1].read_table(path)
+            head, cells = json.loads((arrow.schema.metadata or {})[KEY]), arrow.to_pylist()
+        else:
+            lines = path.read_text(encoding="utf-8").split("\n")
+            about = list(takewhile(lambda line: line.startswith("# "), lines))
+            head = {name: json.loads(value) for name, _, value in (line[2:].partition(": ") for line in about)}
+            cells = list(csv.DictReader(f"{line}\n" for line in lines[len(about) :]))
+        kinds = head.pop("columns")
+        rows = [{name: _value(row[name], kind) for name, kind in kinds.items()} for row in cells]
+    except FileNotFoundError:
+        raise ExperimentError(f"there is no file {path}") from None
+    except (OSError, ValueError, KeyError, TypeError, SyntaxError) as error:
+        raise ExperimentError(f"{path} is no table that results.save() has written ({error})") from None
+    return Table(rows, list(kinds)), head
+
+
+def _pyarrow() -> tuple[Any, Any]:
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError:
+        raise ExperimentError("Parquet files need pyarrow, which is not installed here: save a .csv instead") from None
+    return pyarrow, parquet
+
+
+def _kind(values: Sequence[Any]) -> str:
+    kind = {type(value).__name__ for value in values}
+    if kind == {"int"} and any(abs(value) >= 2**63 for value in values):
+        return "literal"
+    if kind <= {"str"}:
+        return "literal" if any(value == "" or "\r" in value for value in values) else "str"
+    return kind.pop() if kind in ({"int"}, {"float"}, {"bool"}) else "literal"
+
+
+def _value(cell: Any, kind: str) -> Any:
+    """The value of a cell, which is a text if it comes from a CSV file."""
+    if cell is None or cell == "":
+        return None
+    if kind == "str" or not isinstance(cell, str):
+        return cell
+    return float(cell) if kind == "float" else ast.literal_eval(cell)

@@ -113,7 +113,7 @@ def _parser() -> argparse.ArgumentParser:
     running.add_argument("script", type=Path, metavar="EXPERIMENT.py", help="the script")
     many = "worker processes (default: one for each core that may be used)"
     running.add_argument("--jobs", type=_number(int, 1, 512), metavar="N", help=many)
-    where = "also save the table, to NAME.csv (further ones of the script: NAME-2.csv, …)"
+    where = "also save the table, to NAME.csv or NAME.parquet (further ones of the script: NAME-2.csv, …)"
     running.add_argument("--csv", type=Path, metavar="FILE", help=where)
 
     text = "Restore the published state of a page, in your folder without outputs."
