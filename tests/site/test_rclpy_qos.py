@@ -317,7 +317,7 @@ def test_a_number_is_a_queue_length(world: World) -> None:
             {"depth": 10, "reliability": "best_effort"},
             AssertionError,  # of the real one without a text
             "QoS policy 'reliability' must be of type ReliabilityPolicy, got 'best_effort': "
-            "SYSTEM_DEFAULT, RELIABLE, BEST_EFFORT, UNKNOWN",
+            "try reliability=ReliabilityPolicy.BEST_EFFORT",
         ),
         (
             {"depth": "10"},

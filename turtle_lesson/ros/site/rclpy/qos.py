@@ -175,8 +175,12 @@ class QoSProfile:
         if issubclass(kind, QoSPolicyEnum) and isinstance(value, int):
             value = kind(value)
         if not isinstance(value, kind):
-            choices = f": {', '.join(kind.__members__)}" if issubclass(kind, QoSPolicyEnum) else ""
-            raise AssertionError(f"QoS policy {name!r} must be of type {kind.__name__}, got {value!r}{choices}")
+            text = f"QoS policy {name!r} must be of type {kind.__name__}, got {value!r}"
+            if issubclass(kind, QoSPolicyEnum):
+                keys = list(kind.__members__)
+                close = [key for key in keys if str(value).upper().endswith(key)]
+                text += f": try {name}={kind.__name__}.{(close or keys[1:])[0]}"
+            raise AssertionError(text)
         if name == "depth" and isinstance(value, int):
             if value < 0:
                 raise ValueError("history depth must be greater than or equal to zero")
