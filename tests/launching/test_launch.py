@@ -334,7 +334,8 @@ def test_conditions_choose_what_is_started(tmp_path: Path, sim: str, started: li
         "DeclareLaunchArgument('sim', default_value='false', choices=['true', 'false', '0', '1']),\n"
         + node("navigator", condition="IfCondition(LaunchConfiguration('sim'))")
         + node("status_monitor", condition="UnlessCondition(LaunchConfiguration('sim'))")
-        + node("obstacle_detector", condition="IfCondition(EqualsSubstitution(LaunchConfiguration('sim'), 'never'))"),
+        + node("obstacle_detector", condition="LaunchConfigurationEquals('sim', 'never')")
+        + node("detector", condition="IfCondition(EqualsSubstitution(LaunchConfiguration('sim'), 'never'))"),
         sim=sim,
     )
     assert [process.name for process in world.processes] == started

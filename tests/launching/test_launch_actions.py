@@ -133,7 +133,7 @@ def test_parameters_for_all_and_files_meant_for_one_node(tmp_path: Path, capsys:
     world, _ = launch(
         tmp_path,
         f"""
-        SetParameter('depth', 3), SetParameter('use_sim_time', True), SetParametersFromFile({str(file)!r}, node_name='one'),
+        SetParameter('depth', 3), SetUseSimTime(True), SetParametersFromFile({str(file)!r}, node_name='one'),
         {node(name="'one'")} {node(name="'two'")}
         """,
     )

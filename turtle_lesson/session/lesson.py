@@ -250,6 +250,11 @@ class Lesson(Inspection):
         """
         from ..ros import launching
 
+        for name, value in (("package", package), ("launch_file", launch_file)):
+            if not isinstance(value, str):
+                raise TypeError(
+                    f'{name} must be a name such as "robot_controller" or "start_system.launch.py", got {value!r}'
+                )
         path = launching.find_launch_file(self._world, package, launch_file)
         again = self._launched.get((path, repr(sorted(arguments.items()))))
         if again is not None and again.running:

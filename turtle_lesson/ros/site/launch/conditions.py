@@ -8,7 +8,14 @@ from ._context import LaunchContext
 from ._entities import Condition, SomeSubstitutionsType, Substitution, described
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
-__all__ = ["IfCondition", "InvalidConditionExpressionError", "UnlessCondition", "evaluate_condition_expression"]
+__all__ = [
+    "IfCondition",
+    "InvalidConditionExpressionError",
+    "LaunchConfigurationEquals",
+    "LaunchConfigurationNotEquals",
+    "UnlessCondition",
+    "evaluate_condition_expression",
+]
 
 
 class InvalidConditionExpressionError(ValueError):
@@ -47,4 +54,27 @@ class UnlessCondition(IfCondition):
 
     def evaluate(self, context: LaunchContext) -> bool:
         """Whether it holds now. Raises InvalidConditionExpressionError if the text is neither true nor false."""
+        return not super().evaluate(context)
+
+
+class LaunchConfigurationEquals(Condition):
+    """Holds if the launch configuration has this value; for None, if it is not set at all."""
+
+    def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
+        super().__init__()
+        self.__name = launch_configuration_name
+        self.__expected = None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
+
+    def evaluate(self, context: LaunchContext) -> bool:
+        """Whether it holds now."""
+        context._configurations_read.add(self.__name)
+        expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
+        return bool(context.launch_configurations.get(self.__name) == expected)
+
+
+class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
+    """Holds if the launch configuration has another value; for None, if it is set."""
+
+    def evaluate(self, context: LaunchContext) -> bool:
+        """Whether it holds now."""
         return not super().evaluate(context)

@@ -14,7 +14,7 @@ from rclpy.validate_namespace import validate_namespace
 from ..parameter_descriptions import ParameterFile
 from ._nodes import in_namespace
 
-__all__ = ["PushROSNamespace", "PushRosNamespace", "SetParameter", "SetParametersFromFile", "SetRemap"]
+__all__ = ["PushROSNamespace", "PushRosNamespace", "SetParameter", "SetParametersFromFile", "SetRemap", "SetUseSimTime"]
 
 
 @expose_action("set_parameter")
@@ -31,6 +31,16 @@ class SetParameter(Action):
     def execute(self, context: LaunchContext) -> None:
         """Remember it."""
         _append(context, "global_params", {text_of(context, self.name): self.value})
+
+
+@expose_action("set_use_sim_time")
+class SetUseSimTime(SetParameter):
+    """Has every node that is started from here on use simulated time, or not."""
+
+    _tag: ClassVar = {"value": attribute("value", bool)}
+
+    def __init__(self, value: bool | SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__("use_sim_time", value, **kwargs)
 
 
 @expose_action("set_parameters_from_file")
