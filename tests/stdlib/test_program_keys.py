@@ -296,6 +296,83 @@ def test_all_listeners_hear_and_what_pynput_lacks_is_said(lesson: Lesson, begin:
     assert "mouse is not available here: of pynput a program has keyboard.Listener" in capsys.readouterr().err
 
 
-def test_curses_is_refused_with_advice(lesson: Lesson, begin: Begin, capsys: Any) -> None:
-    begin("import curses")
-    assert "curses is not available here: a program reads keys with termios, tty and select" in capsys.readouterr().err
+def test_curses_reads_keys_and_prints_the_lines_that_change(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    process = begin(
+        """
+        import curses, time
+
+        def main(screen):
+            curses.curs_set(0)
+            screen.nodelay(True)
+            speed = 0
+            while True:
+                key = screen.getch()
+                if key == curses.KEY_UP:
+                    speed += 1
+                elif key == ord("q"):
+                    break
+                elif key == -1:
+                    time.sleep(0.05)
+                screen.clear()
+                screen.addstr(0, 0, "arrows drive, q ends\\nspeed ")
+                screen.addstr(f"{speed}", 0)
+                screen.refresh()
+            return speed
+
+        print("speed was", curses.wrapper(main))
+        """
+    )
+    lesson.run(0.2)
+    lesson.press("up", "up", "x", "q")
+    assert capsys.readouterr().out.splitlines() == [
+        "arrows drive, q ends", "speed 0", "speed 1", "speed 2", "speed was 2",
+    ]  # fmt: skip
+    assert process.exit_code == 0
+
+
+def test_curses_waits_for_keys_in_robot_time(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    begin(
+        """
+        import curses, time
+        screen = curses.initscr()
+        curses.noecho(); curses.cbreak(); screen.keypad(True); screen.timeout(500)
+        print(screen.getch(), time.monotonic() // 0.1 / 10)
+        screen.timeout(-1)
+        print(screen.getch() == curses.KEY_LEFT, screen.getch())
+        screen.keypad(False)
+        print([screen.getch() for _ in range(3)])
+        screen.nodelay(1)
+        print(screen.getch())
+        curses.nocbreak(); curses.echo(); curses.endwin()
+        time.sleep(1)
+        print(input("name? "))
+        """
+    )
+    lesson.run(1)
+    lesson.press("left", "enter", "up", every=0.1)
+    lesson.run(1, input=["Ada"])
+    assert capsys.readouterr().out.splitlines() == ["-1 0.5", "True 10", "[27, 91, 65]", "-1", "name? Ada", "Ada"]
+
+
+@pytest.mark.parametrize(
+    "use, said",
+    [
+        ("curses.start_color()", "AttributeError: curses.start_color is not available here: of curses a program has"),
+        (
+            "curses.initscr().getkey()",
+            "AttributeError: curses.window.getkey is not available here: of curses a program",
+        ),
+        ("curses.initscr().addstr(24, 0, 'below')", "curses.error: addwstr() returned ERR"),
+        ("curses.initscr().addstr(0, 0, 1.5)", "TypeError: expect bytes or str, got float"),
+    ],
+)
+def test_what_curses_cannot_do_is_said(lesson: Lesson, begin: Begin, capsys: Any, use: str, said: str) -> None:
+    begin(f"import curses\n{use}")
+    assert said in capsys.readouterr().err
+
+
+def test_curses_needs_a_terminal(lesson: Lesson, begin: Begin, capsys: Any) -> None:
+    import io
+
+    begin("import curses\ncurses.wrapper(print)", stdin=io.StringIO("a"))
+    assert "curses.error: curses needs a terminal, and the input of this program is a" in capsys.readouterr().err

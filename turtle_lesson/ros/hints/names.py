@@ -180,8 +180,8 @@ def _left_out(path: str) -> str:
 # -- devices that a program in the simulation reaches in another way, or not at all: keys, a screen, a user -------------
 
 _KEYS = (
-    "Here a program reads keys from sys.stdin (with termios, tty and select) or by pynput.keyboard; you press them in "
-    "lesson.teleop(), or by lesson.press('w')."
+    "Here a program reads keys from sys.stdin (with termios, tty and select), by pynput.keyboard or by curses; you press "
+    "them in lesson.teleop(), or by lesson.press('w')."
 )
 _SCREEN = (
     "A program here has no screen for a window of its own. lesson.dashboard() may show the same; the "

@@ -386,9 +386,8 @@ def _put_in_place_of_modules() -> None:
     """What import statements of simulated programs, and of nobody else, get or cause."""
     for module in (clocks.make_module(), *terminals.make_modules()):
         on_import[module.__name__] = partial(_itself, module)
-    refused = {**dict.fromkeys(subprocesses.WINDOWS, subprocesses.NO_WINDOW), "curses": subprocesses.NO_CURSES}
-    on_import.update({name: partial(subprocesses.refuse_import, name, why) for name, why in refused.items()})
-    on_import["pynput"] = _pynput
+    on_import.update({toolkit: partial(subprocesses.refuse_toolkit, toolkit) for toolkit in subprocesses.WINDOWS})
+    on_import.update({name: partial(_key_library, f"make_{name}") for name in ("curses", "pynput")})
 
 
 def _itself(module: ModuleType) -> ModuleType:
@@ -396,8 +395,9 @@ def _itself(module: ModuleType) -> ModuleType:
 
 
 @cache
-def _pynput() -> ModuleType:
+def _key_library(maker: str) -> ModuleType:
     """Made once a program asks for it: few do."""
-    from .key_listener import make_pynput
+    from . import key_libraries
 
-    return make_pynput()
+    module: ModuleType = getattr(key_libraries, maker)()
+    return module

@@ -171,16 +171,15 @@ WINDOWS = ("PyQt5", "PyQt6", "PySide2", "PySide6", "customtkinter", "kivy", "pyg
 """The modules of window toolkits. (tkinter is imported by mistake so often, by editors, that only its window is refused.)"""
 
 NO_WINDOW = "{} opens windows, and a program here has no screen for them: lesson.dashboard() may show the same"
-NO_CURSES = "{} is not available here: a program reads keys with termios, tty and select, or with pynput.keyboard"
 
 
-def refuse_import(name: str, sentence: str) -> None:
-    """Refuse the import of a module by a program; one that is not installed is left to Python's own words.
+def refuse_toolkit(name: str) -> None:
+    """Refuse the import of a window toolkit by a program; one that is not installed is left to Python's own words.
 
     Raises ImportError if it is installed.
     """
     if find_spec(name) is not None:
-        raise ImportError(sentence.format(name), name=name)
+        raise ImportError(NO_WINDOW.format(name), name=name)
 
 
 def first_window(real: Any, self: Any, *arguments: Any, **keywords: Any) -> None:
