@@ -52,16 +52,33 @@ def test_two_notebooks_at_once_lose_nothing(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "damage", [b"", b"{", b"[]", b'{"format": 1, "points": {"a": "b"}}', b'{"points": [3]}', b"\xff\xfe\x00"]
+    "damage",
+    [
+        b"",
+        b"{",
+        b"[]",
+        b'{"format": 1}',
+        b'{"format": 1, "points": {"a": "b"}}',
+        b'{"format": 2, "points": {}}',
+        b"\xff\xfe\x00",
+    ],
 )
-def test_a_damaged_file_is_left_as_it_is_and_said(tmp_path: Path, damage: bytes) -> None:
+def test_a_damaged_file_is_kept_aside_and_said(tmp_path: Path, damage: bytes) -> None:
     (tmp_path / FILE).write_bytes(damage)
     file = ProgressFile(tmp_path / FILE)
     file.note(result("counter"))
     assert file.points() == {"counter": 3}
-    assert (tmp_path / FILE).read_bytes() == damage
-    assert "cannot be read" in file.remark
-    assert "cannot be read" in repr(Progress(all_checks(), file.points(), file.remark))
+    assert ProgressFile(tmp_path / FILE).points() == {"counter": 3}, "a new file holds what is earned from then on"
+    assert (tmp_path / f"{FILE}.broken-1").read_bytes() == damage
+    assert "was damaged" in file.remark
+    assert "was damaged" in repr(Progress(all_checks(), file.points(), file.remark))
+
+
+def test_what_was_earned_before_the_damage_goes_into_the_new_file(tmp_path: Path) -> None:
+    file = ProgressFile(tmp_path / FILE)
+    file.note(result("counter"))
+    (tmp_path / FILE).write_text("{")
+    assert file.points() == ProgressFile(tmp_path / FILE).points() == {"counter": 3}
 
 
 def test_where_nothing_can_be_written_points_live_on_in_memory(tmp_path: Path) -> None:

@@ -256,6 +256,23 @@ def test_a_trail_in_few_points_is_never_far_from_the_poses(moves: list[tuple[flo
         assert _distance(np.array(place), [*trail.old, trail.tip]) < 0.08
 
 
+@pytest.mark.parametrize("side", [0.35, 0.93, 2.0])
+def test_a_trail_has_its_corners_where_the_turtle_turned(side: float) -> None:
+    table, trail, corners = Table("x", "y", "theta", "speed"), Trail(), []
+    at = np.array([3.0, 3.0])
+    for turn in range(4):
+        for theta in np.linspace(turn - 1, turn, 30)[1:] * np.pi / 2:
+            table.append(len(table) * 16_000_000, *at, theta, 0.0)
+        corners.append(at)
+        way = np.array([np.cos(theta), np.sin(theta)])
+        for far in np.linspace(0, side, 40)[1:]:
+            table.append(len(table) * 16_000_000, *(at + far * way), theta, 3.0)
+        at = at + side * way
+        trail.follow(table)
+    for corner in corners:
+        assert _distance(corner, [*trail.old, trail.tip]) < 0.015
+
+
 def _distance(place: np.ndarray, pieces: list[np.ndarray]) -> float:
     """From a place to the nearest of some lines."""
     best = np.inf

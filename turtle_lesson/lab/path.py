@@ -33,6 +33,9 @@ TOLERANCE = 0.2
 MOST_POINTS = 900
 """Points that a trail has in all."""
 
+BEND, CLOSEST = 0.2, 0.02
+"""A trail has a point also where the turtle has turned by so much (rad), if it is so far (m) from the one before."""
+
 BANDS = 12
 """The trail is drawn in so many parts, the older the paler."""
 
@@ -82,13 +85,15 @@ def _steps(poses: np.ndarray) -> np.ndarray:
 class Trail:
     """The turtle's way in few points, from a table of poses. `old` changes now and then, `tip` all the time.
 
-    Points are `spacing` metres apart. The newest piece has at most `tip` of them, all pieces together `most`: the oldest go.
+    Points are `spacing` metres apart, nearer in bends. The newest piece has at most `tip` of them, all pieces together `most`:
+    the oldest go.
     """
 
     def __init__(self, spacing: float = 0.1, tip: int = 24, most: int = MOST_POINTS) -> None:
         self._spacing, self._longest, self._most = spacing, tip, most
         self._seen: int | None = None
         self._here: Place | None = None
+        self._heading = 0.0
         self._tip: list[Place] = []
         self.old: list[np.ndarray] = []
         """The pieces that change no more: each n by 2, m."""
@@ -109,14 +114,18 @@ class Trail:
         places: list[Place] = list(zip(rows["x"].tolist(), rows["y"].tolist(), strict=True))
         if len(places) == known:
             return False
+        headings = rows["theta"].tolist()
         jumps = set(find_jumps(rows).tolist())
         moved = any(place != self._here for place in places[known:])
         for index in range(known, len(places)):
             if index in jumps:
                 self._tip += [] if self._here is None else [self._here]
                 self._finish([])
-            if not self._tip or math.dist(self._tip[-1], places[index]) >= self._spacing:
+            far = math.dist(self._tip[-1], places[index]) if self._tip else math.inf
+            turned = BEND < abs(headings[index] - self._heading) < math.tau - BEND
+            if far >= self._spacing or (turned and far >= CLOSEST):
                 self._tip.append(places[index])
+                self._heading = headings[index]
                 if len(self._tip) >= self._longest:
                     self._finish([places[index]])
             self._here = places[index]

@@ -1,7 +1,7 @@
 """The points of a learner over all pages, in one small file beside the notebooks. No account, no network.
 
 What was earned once stays. The file is read anew before each change, so that two notebooks at once lose nothing; one that
-cannot be read is left as it is, and said so.
+is damaged is kept under another name, and said so.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ VARIABLE = "TURTLE_LESSON_PROGRESS"
 """Environment variable: another file, or "off" to keep points only as long as the kernel lives (for tests of pages)."""
 
 KERNEL_ONLY = "points are only kept until the kernel ends."
+FORMAT = 1
 BAR = 20
 
 
@@ -61,18 +62,26 @@ class ProgressFile:
 
     def _read(self) -> tuple[dict[str, int], dict[str, int]]:
         """The points, and the failures in a row, that the file holds."""
-        if self.path is None or not self.path.is_file():
+        file = self.path
+        if file is None or not file.is_file():
             return {}, {}
         try:
-            content = json.loads(self.path.read_text(encoding="utf-8"))
-            points, failures = (
-                {name: int(each) for name, each in content.get(key, {}).items()} for key in ("points", "failures")
-            )
-            return points, failures
-        except (OSError, ValueError, TypeError, AttributeError, RecursionError):
-            self.remark = f"{self.path.name} cannot be read; {KERNEL_ONLY} Mend that file, or delete it to begin anew."
+            content = json.loads(file.read_text(encoding="utf-8"))
+            return _numbers_in(content, "points"), _numbers_in({"failures": {}, **content}, "failures")
+        except OSError as error:
+            self.remark = f"{file.name} cannot be read ({error.strerror}); {KERNEL_ONLY}"
             self.path = None
-            return {}, {}
+        except (ValueError, RecursionError):
+            aside = files.unused(lambda number: file.with_name(f"{file.name}.broken-{number}"))
+            try:
+                file.rename(aside)
+            except OSError:
+                self.remark = f"{file.name} is damaged and cannot be replaced; {KERNEL_ONLY}"
+                self.path = None
+            else:
+                self.remark = f"{file.name} was damaged. It is kept as {aside.name}, and a new one was started."
+                self._write()
+        return {}, {}
 
     def _write(self) -> None:
         if self.path is None:
@@ -80,9 +89,16 @@ class ProgressFile:
         kept = {"points": self._points, "failures": self._failures}
         content = {key: {k: v for k, v in sorted(each.items()) if v} for key, each in kept.items()}
         try:
-            files.write(self.path, json.dumps({"format": 1, **content}, indent=1) + "\n")
+            files.write(self.path, json.dumps({"format": FORMAT, **content}, indent=1) + "\n")
         except OSError as error:
             self.remark = f"{self.path.name} cannot be written ({error.strerror}); {KERNEL_ONLY}"
+
+
+def _numbers_in(content: object, key: str) -> dict[str, int]:
+    numbers = content.get(key) if isinstance(content, dict) and content.get("format") == FORMAT else None
+    if not isinstance(numbers, dict) or not all(type(each) is int and each >= 0 for each in numbers.values()):
+        raise ValueError("not a file of points")
+    return numbers
 
 
 def progress_file(folder: Path) -> ProgressFile:
