@@ -104,11 +104,19 @@ class _Builder:
             if keyword.iskeyword(name):
                 reason = f"'{name}' is a keyword of Python, which cannot be the name of a class"
                 raise InvalidDefinition(reason, "InvalidResourceName")
-            kinds = []
+            kinds, weight = [], 1
             for member in definition.fields:
                 kinds.append(self._kind(definition, member))
+                weight += weight_of(member.type, kinds[-1].element_class)
             for member in definition.constants:
                 check_value(member.type, member.value)
+            if weight > MAX_WEIGHT:
+                member = None
+                reason = (
+                    f"each message {name} would consist of {weight:,} values, which is more than fits into memory here"
+                )
+                hint = "A sequence such as float64[] is as long as what is in it"
+                raise InvalidDefinition(reason, "TypeError", hint=hint)
         except InvalidDefinition as error:
             line, text = (None, None) if member is None else (member.line or None, str(member))
             raise error.locate(
@@ -126,6 +134,7 @@ class _Builder:
             packing = Struct(f"{rounded}f")  # rounds them to float32
             self._globals.update({f"_pack_{rounded}": packing.pack, f"_unpack_{rounded}": packing.unpack})
         self._run(definition, definition.folder, message_source(definition, kinds))
+        self._globals[name]._WEIGHT = weight
 
     def _run(self, definition: Definition, kind: str, source: str) -> None:
         self._globals[f"_support_{definition.name}"] = message.TypeSupport(kind, definition.full_name)
@@ -174,6 +183,16 @@ _CPP = """
 """
 CPP_WORDS = frozenset(_CPP.split())
 """The reserved words of C and of C++17."""
+
+MAX_WEIGHT = 10_000_000
+"""How many values and messages one message may consist of: more would fill the memory of a small computer."""
+
+
+def weight_of(type_: FieldType, message_class: type | None) -> int:
+    """How many values and messages a field's default consists of; `message_class` is the class of its elements, if any."""
+    if type_.is_array and not type_.is_fixed:
+        return 1
+    return (type_.size or 1) * (message_class._WEIGHT if message_class else 1)  # type: ignore[attr-defined]
 
 
 def check_buildable(field: Field) -> None:

@@ -40,6 +40,12 @@ INSTALLED_SEPARATELY = frozenset((
 """Built-in packages that an ordinary installation (ros-humble-desktop) lacks. They have what courses use, as in Humble and
 in PX4 1.14; their other interfaces come with the package's own sources, which hide the built-in package."""
 
+LONGEST = 100_000
+"""How many characters a definition may have: five times as many as the longest of those in use."""
+
+DEEPEST = 50
+"""How many messages may lie within each other; Python's own stack would end at some 100."""
+
 
 @dataclass(eq=False)
 class Package:
@@ -78,13 +84,18 @@ class Package:
         return self.directory / f"{interface}.{interface.partition('/')[0]}"
 
     def text(self, interface: str) -> str:
-        """What the definition file of `msg/Twist` says. Raises InvalidDefinition if it cannot be read."""
-        path = self.path(interface)
+        """What the definition file of `msg/Twist` says. Raises InvalidDefinition if it cannot be read, or is too long."""
+        path, hint = self.path(interface), ""
         try:
-            return path.read_text(encoding="utf-8")
+            with path.open(encoding="utf-8") as file:
+                text = file.read(LONGEST + 1)
+            if len(text) <= LONGEST:
+                return text
+            reason = f"the definition has more than {LONGEST:,} characters"
+            hint = "Move some of its fields into messages of their own"
         except (OSError, UnicodeDecodeError) as error:
-            refused = InvalidDefinition(f"the file cannot be read ({error})")
-            raise refused.locate(interface=f"{self.name}/{interface}", file=str(path)) from None
+            reason = f"the file cannot be read ({error})"
+        raise InvalidDefinition(reason, hint=hint).locate(interface=f"{self.name}/{interface}", file=str(path))
 
     def definition(self, interface: str) -> Definition:
         """The definition of `msg/Twist`, parsed."""
@@ -201,6 +212,8 @@ class Registry:
         if name in self._in_progress:
             circle = " -> ".join([*self._in_progress, name])
             raise InvalidDefinition(f"a message cannot contain itself: {circle}", "UnknownMessageType")
+        if len(self._in_progress) >= DEEPEST:
+            raise InvalidDefinition(f"messages are nested more than {DEEPEST} deep", "UnknownMessageType")
         self._in_progress.append(name)
         self._uses[name] = {owner.name}
         try:
