@@ -435,9 +435,10 @@ ENDLESS = [
 
 
 @pytest.mark.parametrize("line", ENDLESS)
-def test_twice_as_many_lines_that_never_end_are_at_most_four_times_the_work(line: str) -> None:
-    lines = [f"{line}\n"] * 50
-    assert work_of(2 * lines) < 4.4 * work_of(lines)
+def test_twice_as_many_lines_are_at_most_twice_the_work(line: str) -> None:
+    """Lines that go on to the cell's end, or whose brackets and quotes are never closed, are not read again and again."""
+    lines = [f"{line}\n"] * 200
+    assert work_of(2 * lines) < 2.2 * work_of(lines)
 
 
 def test_what_is_never_closed_ends_with_its_line_and_later_statements_are_whole() -> None:

@@ -181,7 +181,10 @@ def _call(lines: list[str], column: int) -> list[str]:
 
 
 class _Cell:
-    """A cell's lines, and where their statements and commands end."""
+    """A cell's lines, and where their statements and commands end.
+
+    Lines that an unclosed bracket or string holds open are not read again for each statement that begins in one of them.
+    """
 
     def __init__(self, lines: list[str], variables: Container[str]) -> None:
         self.lines = lines
@@ -190,6 +193,8 @@ class _Cell:
         self._variables = variables
         self._known: dict[str, bool] = {}
         self._ends: dict[int, int] = {}
+        # The line at whose end a string is open that is never closed, by its quote.
+        self._endless: dict[str, int] = {}
 
     def has(self, word: str) -> bool:
         """Whether a word is a variable, of the notebook or of this cell."""
@@ -219,24 +224,38 @@ class _Cell:
 
         One with a bracket or a string that is never closed ends with its first line.
         """
+        if self.lines[at].lstrip().startswith(("%", "!")):
+            ends = range(at + 1, len(self.lines))
+            return next((end for end in ends if not self.lines[end - 1].rstrip("\n").endswith("\\")), len(self.lines))
         if at not in self._ends:
-            self._ends[at] = self._find_end(at)
+            self._read_statement(at)
         return self._ends[at]
 
-    def _find_end(self, at: int) -> int:
-        ends = range(at + 1, len(self.lines) + 1)
-        if self.lines[at].lstrip().startswith(("%", "!")):
-            return next((end for end in ends if not self.lines[end - 1].rstrip("\n").endswith("\\")), ends[-1])
-        depth, string = 0, ""
-        for end in ends:
+    def _read_statement(self, at: int) -> None:
+        """Read to the end of a statement, or of the cell; note where those end that begin in the lines on the way."""
+        begun: list[int] = []  # the line of each statement whose end is not known yet
+        opened: list[int] = []  # the line of each bracket that is open
+        string, since = "", at
+        for line in range(at, len(self.lines)):
+            begun += [] if string else [line]
             kind = text = ""
-            for kind, text, _ in _pieces(self.lines[end - 1], string):
-                if kind == "bracket":
-                    depth = max(0, depth + _DEEPER[text])
-            string = text if kind == "open string" else ""
-            if not (depth or string or kind == "backslash"):
-                return end
-        return at + 1 if depth or string else ends[-1]
+            for kind, text, _ in _pieces(self.lines[line], string):
+                if kind == "bracket" and _DEEPER[text] > 0:
+                    opened.append(line)
+                elif kind == "bracket" and opened:
+                    opened.pop()
+            before, string = string, text if kind == "open string" else ""
+            since = since if string == before else line
+            # A statement ends here if all brackets that are still open were opened before it.
+            while begun and not (opened and opened[-1] >= begun[-1]) and kind not in ("open string", "backslash"):
+                self._ends[begun.pop()] = line + 1
+            if not begun or line >= self._endless.get(string, len(self.lines)):
+                break
+        if string:
+            self._endless[string] = min(since, self._endless.get(string, since))
+        for line in begun:
+            closed = not string and not (opened and opened[-1] >= line)
+            self._ends[line] = len(self.lines) if closed else line + 1
 
 
 def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:
