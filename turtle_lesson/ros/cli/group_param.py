@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..runtime import files
 from .arguments import HIDDEN_NODES, NODE, arg, flag
 from .typed_values import Unparsable, read_yaml
 from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
@@ -121,18 +123,37 @@ def tell(result: Any, done: str, failed: str) -> bool:
     return bool(result.successful)
 
 
-@graph_verb("param dump", *OF_NODE)
+@graph_verb(
+    "param dump",
+    *OF_NODE,
+    arg("--output-dir", "Deprecated: write a file named after the node into this folder"),
+    flag("--print", "Deprecated: print, as without --output-dir"),
+)
 def dump(args: Namespace, node: Node) -> None:
     """All parameters of a node, in the format that `load` reads."""
     import yaml
     from rclpy.parameter import parameter_value_to_python
 
+    if args.output_dir is not None and not Path(args.output_dir).is_dir():
+        raise CommandError(f"'{args.output_dir}' is not a valid directory.")
     name = find_node(node, args)
     names = listed(node, name)
     values = _ask(node, name, "GetParameters", names=names).values
     pairs = zip(names, map(parameter_value_to_python, values), strict=False)
     tree = {name: {"ros__parameters": nested(list(pairs))}}
-    print(yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True))
+    text = yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True)
+    if args.print:
+        print("WARNING: '--print' is deprecated; this utility prints to stdout by default", file=sys.stderr)
+    if args.print or args.output_dir is None:
+        print(text)
+        return
+    print("WARNING: '--output-dir' is deprecated; use redirection to save to a file", file=sys.stderr)
+    file = Path(args.output_dir, f"{name[1:].replace('/', '__')}.yaml")
+    print("Saving to: ", file)
+    try:
+        files.save(file, text)
+    except OSError as error:
+        raise CommandError(f"cannot write {file}: {error.strerror}") from None
 
 
 @graph_verb("param load", *OF_NODE, arg("parameter_file", "A file as `ros2 param dump` prints it"))
@@ -180,23 +201,29 @@ LIST_PATIENCE = 1.0
     *NODE,
     arg("node_name", "Name of the node, such as /turtlesim", nargs="?"),
     HIDDEN_NODES,
+    arg("--param-prefixes", "Only parameters that begin with these", nargs="+", default=[]),
     flag("--param-type", "Show each parameter's type beside it"),
+    arg("--filter", "Only names whose beginning this regular expression matches", default=""),
 )
 def list_parameters(args: Namespace, node: Node) -> None:
     """The names of the parameters."""
     from rcl_interfaces.srv import ListParameters
 
+    try:
+        wanted = re.compile(args.filter).match
+    except (re.error, OverflowError, RecursionError) as error:
+        raise CommandError(f"'{args.filter}' is not a regular expression: {error}") from None
     every = dict.fromkeys(node_names(node, args.include_hidden_nodes))
     futures = {}
     for name in [find_node(node, args)] if args.node_name else every:
         client = node.create_client(ListParameters, f"{name}/list_parameters")
         if client.service_is_ready():
-            futures[name] = client.call_async(ListParameters.Request())
+            futures[name] = client.call_async(ListParameters.Request(prefixes=args.param_prefixes))
     for name, future in futures.items():
         if not spin_for(node, LIST_PATIENCE, future):
             print(f"Exception while calling service of node '{name}': None", file=sys.stderr)
             continue
-        names = sorted(future.result().result.names)
+        names = [each for each in sorted(future.result().result.names) if wanted(each)]
         if names and not args.node_name:  # as in ros2param/verb/list.py
             print(f"{name}:")
         types: dict[str, str] = {}
