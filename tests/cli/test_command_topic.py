@@ -243,6 +243,36 @@ def test_hz_waits_for_a_topic_that_appears_later(world: World) -> None:
     )
 
 
+def test_delay_says_when_nothing_new_has_come(world: World) -> None:
+    def stops() -> None:
+        from sensor_msgs.msg import LaserScan
+
+        rclpy.init(args=[])
+        node = rclpy.create_node("stops")
+        publisher = node.create_publisher(LaserScan, "scan", 10)
+
+        def publish() -> None:
+            if node.get_clock().now() - begun < rclpy.duration.Duration(seconds=2):
+                message = LaserScan()
+                message.header.stamp = node.get_clock().now().to_msg()
+                publisher.publish(message)
+
+        begun = node.get_clock().now()
+        node.create_timer(0.1, publish)
+        rclpy.spin(node)
+
+    system.start(world, stops)
+    lines = type_in(world, "ros2 topic delay /scan --for 4.5").stdout.splitlines()
+    assert lines[-2:] == ["no new messages"] * 2
+    assert lines[0].startswith("average delay: 0.00")
+
+
+def test_the_old_way_to_ask_for_lost_messages_is_warned_of(lesson: World) -> None:
+    answer = type_in(lesson, "ros2 topic echo --once /robot/status --lost-messages")
+    assert answer.stderr == "WARNING: '--lost-messages' is deprecated; lost messages are reported by default\n"
+    assert answer.code == 0
+
+
 # ---------------------------------------------------------------- pub
 
 

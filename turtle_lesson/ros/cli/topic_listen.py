@@ -77,6 +77,8 @@ def echo(args: Namespace) -> None:
     from rclpy.task import Future
     from rosidl_runtime_py.convert import message_to_csv, message_to_yaml
 
+    if args.lost_messages:
+        print("WARNING: '--lost-messages' is deprecated; lost messages are reported by default", file=sys.stderr)
     done = Future() if args.once else None
     path = [name for name in (args.field or "").split(".") if name]
     if args.field is not None and not path:
@@ -323,19 +325,24 @@ def delay(args: Namespace) -> None:
     """How old the messages of a topic are when they arrive, judged by the stamp in their header."""
     ages: deque[int] = deque(maxlen=args.window)
     begun = False  # the first message only begins the count
+    news = False
 
     def count(message: Any) -> None:
-        nonlocal begun
+        nonlocal begun, news
         if not hasattr(message, "header"):
             raise CommandError("msg does not have header")
         stamp = message.header.stamp
         if begun:
             ages.append(EPOCH + _now() - (stamp.sec * SECOND + stamp.nanosec))
-        begun = True
+        begun = news = True
 
     def report() -> None:
-        if ages:
+        nonlocal news
+        if ages and not news:
+            print("no new messages")
+        elif ages:
             _print_times(lambda mean: f"average delay: {mean:.3f}", ages)
+        news = False
 
     _measure(args, args.topic, count, report)
 
