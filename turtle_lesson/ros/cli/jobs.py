@@ -188,10 +188,11 @@ Builtin = Callable[[Terminal, list[str]], int]
 
 
 def options(words: list[str], known: str) -> tuple[set[str], list[str]]:
-    """The letters after `-`, and the other words. Raises ValueError for a letter that is not known."""
+    """The letters after `-`, and the other words. Raises ValueError for a letter that is not known, and for `--word`."""
     letters = {letter for word in words if re.fullmatch("-[A-Za-z0-9]+", word) for letter in word[1:]}
-    if unknown := sorted(letters - set(known)):
-        raise ValueError(f"no option -{unknown[0]} here; known: {', '.join(f'-{each}' for each in known)}")
+    unknown = [f"-{letter}" for letter in sorted(letters - set(known))]
+    if unknown := unknown + [word for word in words if re.match("--[a-z]", word)]:
+        raise ValueError(f"no option {unknown[0]} here; known: {', '.join(f'-{each}' for each in known)}")
     return letters, [word for word in words if not re.fullmatch("-[A-Za-z0-9]+", word) and word != "--"]
 
 

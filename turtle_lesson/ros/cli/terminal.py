@@ -49,7 +49,7 @@ def pwd(terminal: Terminal, words: list[str]) -> int:
 
 def mkdir(terminal: Terminal, words: list[str]) -> int:
     """`mkdir [-p] folder…`: make folders."""
-    letters, names = options(words, "pv")
+    letters, names = options(["-p" if word == "--parents" else word for word in words], "pv")
     if not names:
         return terminal.fail("mkdir: missing operand: name the folders to make, as in mkdir -p turtle_ws/src")
 
