@@ -503,15 +503,9 @@ def test_entry_points_of_any_group_are_found_by_a_program(
         ("setup.py", "find_packages(exclude=['test'])", "['nope']", 1, "package directory 'nope' does not exist"),
         ("setup.cfg", "install_scripts", "install_script", 0, "setup.cfg puts programs into bin/"),
         ("setup.py", "import find_packages, setup", "import find_package, setup", 1, "ImportError: cannot import name"),
-        ("package.xml", "</package>", "", 1, "package.xml':\nno element found: line"),
-        ("package.xml", "<license>", "<licence>", 1, "mismatched tag"),
-        (
-            "package.xml",
-            "0.0.0",
-            "1",
-            1,
-            "version conventions\nHint: A version is three numbers, such as <version>0.1.0",
-        ),
+        ("package.xml", "</package>", "", 0, "package.xml: no element found: line"),
+        ("package.xml", "<license>", "<licence>", 0, "colcon takes the folder for a Python package without ROS"),
+        ("package.xml", "0.0.0", "1", 0, "version conventions. A version is three numbers, such as <version>0.1.0"),
     ],
 )
 def test_a_wrong_python_package(
@@ -539,6 +533,21 @@ def test_a_setup_py_may_use_what_setuptools_brings(python_package: Path, world: 
     answer = colcon(world)
     assert answer.code == 0 and "1 package finished" in answer.out, answer.err
     assert (answer.err == "") if not hint else (hint in answer.err)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("</package>", ""), ("<maintainer", "<maintainr"), ("<name>py_demo", "<name>")]
+)
+def test_a_package_xml_that_is_refused_leaves_a_plain_python_package(
+    python_package: Path, world: World, old: str, new: str
+) -> None:
+    change(python_package / "package.xml", old, new)
+    python_package = python_package.rename(python_package.with_name("folder"))
+    assert colcon(world, "list").out == "py_demo\tsrc/folder\t(python)\n"
+    assert colcon(world).code == 0 and source_in(world).code == 0
+    assert list(world.packages.get("py_demo").executables) == ["my_node"]
+    change(python_package / "setup.py", "('share/ament_index/resource_index/packages',", "('share/nowhere',")
+    assert "ros2 does not find py_demo on a robot" in colcon(world).err
 
 
 def test_without_setup_py(python_package: Path, world: World) -> None:

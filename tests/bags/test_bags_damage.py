@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
+import struct
+import tracemalloc
+from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +17,7 @@ from bag_help import write_bag
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.bags import BagError
+from turtle_lesson.ros.bags import BagError, scan
 from turtle_lesson.ros.bags.bag import Bag, info_text, open_bag
 
 COUNT = 100
@@ -89,7 +93,7 @@ def test_one_spoiled_byte_costs_one_chunk(sound: Sound, tmp_path: Path) -> None:
     assert set(read(bag)) < set(sound[1])
     assert bag.lost is not None
     assert 0 < bag.lost < 80
-    assert "is damaged (its checksum is wrong), so its messages are left out" in bag.damage
+    assert "is damaged (its size or checksum is wrong), so its messages are left out" in bag.damage
 
 
 def test_cut_short_at_every_twentieth_the_more_there_is_the_more_is_read(sound: Sound, tmp_path: Path) -> None:
@@ -326,6 +330,92 @@ def test_a_database_of_humble_is_read(tmp_path: Path) -> None:
     bag = open_bag(folder / "old_0.db3")
     assert (bag.damage, bag.message_count, bag.topics[0].definition, bag.topics[0].profiles) == ("", 1, "", [])
     assert read(bag) == [("/count", 5, bytes.fromhex("0001000007000000"))]
+
+
+# ---------------------------------------------------------------- bags that are far larger than they look
+
+
+@pytest.fixture(autouse=True)
+def _nothing_is_unpacked_beyond_the_limit(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """A limit of 1 MiB, so that these tests need little memory; real recordings of this file stay far below it."""
+    monkeypatch.setattr(scan, "ALWAYS", 1 << 20)
+    yield
+
+
+def packed_zeros(size: int = 64 << 20) -> bytes:
+    """Some kilobytes of zstd that become as many zeros as are asked for."""
+    import zstandard
+
+    return zstandard.ZstdCompressor().compress(bytes(size))
+
+
+def mcap_of(*records: tuple[int, bytes]) -> bytes:
+    """An MCAP file without a summary."""
+    end = (0x0F, bytes(4)), (0x02, bytes(20))
+    written = b"".join(struct.pack("<BQ", code, len(body)) + body for code, body in (*records, *end))
+    return b"\x89MCAP0\r\n" + written + b"\x89MCAP0\r\n"
+
+
+def chunk(packed: bytes, size: int, compression: bytes = b"zstd") -> tuple[int, bytes]:
+    """A chunk that says it holds so many bytes."""
+    head = struct.pack("<QQQI", 0, 0, size, 0)
+    return 0x06, head + struct.pack("<I", len(compression)) + compression + struct.pack("<Q", len(packed)) + packed
+
+
+def packed_lz4(size: int) -> bytes:
+    import lz4.frame
+
+    return lz4.frame.compress(bytes(size))
+
+
+@pytest.mark.parametrize("lies", [False, True])
+@pytest.mark.parametrize(("compression", "pack"), [(b"zstd", packed_zeros), (b"lz4", packed_lz4)])
+def test_a_small_chunk_that_holds_gigabytes_is_not_unpacked(
+    compression: bytes, pack: Any, lies: bool, tmp_path: Path
+) -> None:
+    path = tmp_path / "bomb.mcap"
+    path.write_bytes(mcap_of(chunk(pack(64 << 20), 100 if lies else 64 << 20, compression)))
+    said = "its size or checksum is wrong" if lies else "would become more than 100 times as large"
+    tracemalloc.start()
+    try:
+        with pytest.raises(BagError, match=rf"nothing of the bag .* can be read: .*the chunk at byte 8 .*{said}"):
+            open_bag(path)
+        assert tracemalloc.get_traced_memory()[1] < 8 << 20
+    finally:
+        tracemalloc.stop()
+
+
+def test_many_small_chunks_are_one_large_one(tmp_path: Path) -> None:
+    """Each is within the limit, and all together are not."""
+    path = tmp_path / "bomb.mcap"
+    path.write_bytes(mcap_of(*[chunk(packed_zeros(1 << 19), 1 << 19)] * 4))
+    with pytest.raises(BagError, match="is not unpacked: the file would become more than 100 times as large"):
+        open_bag(path)
+
+
+@pytest.mark.parametrize(
+    "messages",
+    [
+        "VIEW messages AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n) "
+        "SELECT id, 1 AS topic_id, id AS timestamp, x'00' AS data FROM n",
+        "TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB AS (zeroblob(100000)))",
+        "TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB AS (zeroblob(1000000000)))",
+        "VIRTUAL TABLE messages USING fts5(topic_id, timestamp, data)",
+    ],
+)
+def test_a_database_that_computes_its_messages_is_not_believed(tmp_path: Path, messages: str) -> None:
+    path = tmp_path / "bomb.db3"
+    with closing(sqlite3.connect(path)) as database:
+        database.executescript(
+            "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT, "
+            "offered_qos_profiles TEXT); INSERT INTO topics VALUES(1, '/count', 'std_msgs/msg/Int32', 'cdr', '');"
+        )
+        database.execute(f"CREATE {messages}")
+        if messages.startswith("TABLE"):
+            database.execute("INSERT INTO messages VALUES (1, 1, 1), (2, 1, 1)")
+        database.commit()
+    with pytest.raises(BagError, match="its tables are computed, not recorded"):
+        open_bag(path)
 
 
 LAUGHS = "x0: &x0 [y]\n" + "".join(f"x{n}: &x{n} [{', '.join([f'*x{n - 1}'] * 10)}]\n" for n in range(1, 9))

@@ -187,13 +187,16 @@ def test_a_type_that_is_not_here_is_left_out(world: World, tmp_path: Path, numbe
     with Writer(tmp_path / "b", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
         strange = writer.add_connection("/strange", "their_msgs/msg/Odd", msgdef="int32 x\n", rihs01="RIHS01_0")
         known = writer.add_connection("/count", "std_msgs/msg/Int32", msgdef="int32 data\n", rihs01="RIHS01_0")
+        about = {"msgdef": "int32 data\n", "rihs01": "RIHS01_0", "serialization_format": "json"}
+        writer.add_connection("/text", "std_msgs/msg/Int32", **about)
         for number in range(10):
             writer.write(strange, number, b"\0\1\0\0" + bytes(4))
             writer.write(known, number, b"\0\1\0\0" + bytes([number, 0, 0, 0]))
     heard = numbers("/count")
     said, _ = play_in(world, tmp_path / "b")
-    (warning,) = said
-    assert warning.startswith("Ignoring a topic '/strange', reason: there is no interface package 'their_msgs'")
+    first, second = said
+    assert first.startswith("Ignoring a topic '/strange', reason: there is no interface package 'their_msgs'")
+    assert second == "Ignoring a topic '/text', reason: its messages are not written as CDR but as 'json'"
     assert [number for _, number in heard] == list(range(10))
 
 

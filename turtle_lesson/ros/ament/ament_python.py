@@ -13,7 +13,7 @@ from typing import Any
 from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
 from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, with_hint
-from .manifest import Found, faults_in, hint_for
+from .manifest import Found, hint_for
 from .package import BuildFailure, filled
 from .setup_py import SetupError, install_scripts, read_setup
 
@@ -47,10 +47,11 @@ class _Build:
         self.setup: dict[str, Any] = {}
 
     def run(self) -> Outcome:
-        folder, root = self.found.path, self.found.root
-        for fault in [self.found.xml_error] if root is None else faults_in(root):
-            raise _refused(
-                f"Error(s) in package '{shown_path(str(folder / 'package.xml'))}':\n{fault}", hint_for(fault)
+        folder, fault = self.found.path, self.found.xml_error
+        if fault:
+            hint = f"{shown_path(str(folder / 'package.xml'))}: {fault}. {hint_for(fault)}".strip()
+            self.hints.append(
+                f"{hint} Until it is corrected, colcon takes the folder for a Python package without ROS."
             )
         if not (folder / "setup.py").is_file():
             hint = "An ament_python package is built from its setup.py."
@@ -155,6 +156,11 @@ class _Build:
         marker = f"share/ament_index/resource_index/packages/{name}"
         start = f"WARNING:colcon.colcon_ros.task.ament_python.build:Package '{name}' doesn't explicitly install"
         end = "(colcon-ros currently does it implicitly but that fallback will be removed in the future)\n"
+        if self.found.kind == "python":
+            if marker not in targets:
+                entry = f"('{marker.rpartition('/')[0]}', ['resource/{name}'])"
+                self.hints.append(f"ros2 does not find {name} on a robot: add {entry} to data_files in setup.py.")
+            return items
         if marker not in targets:
             self.warnings.append(f"{start} a marker in the package index {end}")
             items.append(Item(marker))

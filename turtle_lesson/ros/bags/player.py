@@ -147,6 +147,8 @@ def offer_of(profiles: Sequence[Qos]) -> QoSProfile:
 
 def _class_of(topic: BagTopic) -> Any:
     """The class of a recorded topic's messages. Raises BagError if there is none, or if it is another one today."""
+    if topic.serialization != "cdr":
+        raise BagError(f"its messages are not written as CDR but as {topic.serialization!r}")
     try:
         message_class = registry.get(topic.type_name)
     except LookupError as error:

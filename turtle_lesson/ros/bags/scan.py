@@ -1,7 +1,8 @@
 """The data files of a bag, read as far as they can be read: a damaged one up to the damage, and no further.
 
 Facts: https://mcap.dev/spec, and rosbag2_storage_sqlite3's sqlite_storage.cpp (tables `topics` and `messages`, and a newer one
-for definitions). Of a damaged MCAP file, chunks whose checksum is wrong are left out.
+for definitions). Of a damaged MCAP file, chunks whose size or checksum is wrong are left out. Compressed data is unpacked up to
+a limit, since a few kilobytes can stand for gigabytes: recordings of robots hardly ever shrink to a hundredth.
 """
 
 from __future__ import annotations
@@ -29,6 +30,18 @@ HEAD = struct.Struct("<BQ")
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 CHUNK_HEAD = struct.Struct("<QQQI")
 LARGEST = 1 << 32
+
+MOST_TIMES = 100
+"""How many times its size a file may become when its chunks are unpacked."""
+
+ALWAYS = 64 << 20
+"""How many bytes it may become in any case."""
+
+COMPUTED = (
+    "SELECT 1 FROM sqlite_master AS it LEFT JOIN pragma_table_xinfo(it.name) AS its_column "
+    "WHERE (sql NOT LIKE 'CREATE TABLE%' AND sql NOT LIKE 'CREATE INDEX%') OR its_column.hidden"
+)
+"""Finds views, virtual tables and generated columns, whose rows and values could be without end. rosbag2 makes none."""
 
 Where = tuple[int, ...]
 """Where in a file a message is."""
@@ -169,6 +182,7 @@ class McapFile:
         if self._file.read(len(MAGIC)) != MAGIC:
             raise _Spoiled("it does not begin like an MCAP file")
         place, has_chunks = len(MAGIC), False
+        left = max(ALWAYS, MOST_TIMES * self._size)
         while True:
             opcode, length, body = self._record(place)
             begin, whole = place + HEAD.size, len(body) == length
@@ -178,7 +192,8 @@ class McapFile:
                 return
             if opcode == CHUNK:
                 has_chunks = True
-                records = memoryview(self._chunk(place, length, body))
+                records = memoryview(self._chunk(place, length, body, most=left))
+                left -= len(records)
                 at = 0
                 while at + HEAD.size <= len(records):
                     opcode, inner = HEAD.unpack_from(records, at)
@@ -202,21 +217,28 @@ class McapFile:
             raise _Spoiled(f"there is no record at byte {place}")
         return opcode, length, self._file.read(length)
 
-    def _chunk(self, place: int, length: int, body: bytes) -> bytes:
-        """The records of the chunk at a place: fewer if it is cut short, none if it is damaged, which becomes a flaw."""
+    def _chunk(self, place: int, length: int, body: bytes, most: int = LARGEST) -> bytes:
+        """The records of the chunk at a place: fewer if it is cut short, none if it is damaged, which becomes a flaw.
+
+        Raises _Spoiled if it would be unpacked to more than `most` bytes.
+        """
         _, _, size, checksum = CHUNK_HEAD.unpack_from(body)
         compression, at = _text(memoryview(body), CHUNK_HEAD.size)
         records = body[at + 8 :]
         if compression:
+            if size > most:
+                why = f"the file would become more than {MOST_TIMES} times as large, which is no usual recording"
+                raise _Spoiled(f"the chunk at byte {place} is not unpacked: {why}")
             decompressor = _decompressor(compression)
             try:
-                records = bytes(decompressor.decompress(records, size))
+                records = bytes(decompressor.decompress(records, size + 1))  # one byte more shows that it lies
             except Exception:
                 records = b""  # spoiled
-        records = records[:size]
-        whole = len(records) == size
-        if (whole and checksum and zlib.crc32(records) != checksum) or (not whole and len(body) == length):
-            self._flaw(f"the chunk at byte {place} is damaged (its checksum is wrong), so its messages are left out")
+        cut_short = len(records) < size and len(body) < length
+        if not cut_short and (len(records) != size or (checksum and zlib.crc32(records) != checksum)):
+            self._flaw(
+                f"the chunk at byte {place} is damaged (its size or checksum is wrong), so its messages are left out"
+            )
             return b""
         return records
 
@@ -250,6 +272,8 @@ class SqliteFile:
         self._size = path.stat().st_size
         self._found = found
         self._database = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)
+        # No value is larger than its file.
+        self._database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, max(self._size, 1_000_000))
         self._database.text_factory = lambda raw: raw.decode(errors="replace")
         self.close = self._database.close
 
@@ -262,6 +286,9 @@ class SqliteFile:
             if pages * size != self._size:
                 self._flaw("it is cut short")  # SQLite would take what is missing for zeros
                 return
+        if self._database.execute(COMPUTED).fetchone():
+            self._flaw("its tables are computed, not recorded")
+            return
         definitions: dict[str, str] = {}
         with suppress(*BROKEN):  # Humble's has none
             query = "SELECT topic_type, encoded_message_definition FROM message_definitions"
