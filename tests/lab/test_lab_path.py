@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from lab_fakes import SECOND, START, TICK, drive, recording, stand
 
-from turtle_lesson.lab.path import LABEL, NEAR, WORLD, distance_driven, find_jumps, plot_path
+from turtle_lesson.lab.path import LABEL, SIGN, WORLD, distance_driven, find_jumps, plot_path
 from turtle_lesson.turtlesim.obstacles import Box, Circle
 
 
@@ -131,6 +131,6 @@ def test_the_word_start_covers_neither_turtle_nor_flag_and_stays_within_the_wall
     (label,) = [text for text in axes.texts if text.get_text() == "start"]
     place = label.get_position()
     last = heard.poses.array()[-1]
-    for x, y in ((last["x"], last["y"]), (goal[0], goal[1] + 0.4)):
-        assert math.dist(place, (x, y)) >= NEAR
+    for x, y in ((last["x"], last["y"]), (goal[0], goal[1] + 0.35)):
+        assert (np.abs(np.subtract(place, (x, y))) >= np.add(LABEL, SIGN)).any()
     assert all(half < each < WORLD - half for each, half in zip(place, LABEL, strict=True))

@@ -42,8 +42,8 @@ BANDS = 12
 LABEL = (0.45, 0.2)
 """Half the width and half the height of the word "start", m."""
 
-NEAR = 0.8
-"""As near to the middle of the turtle or of a goal (m) it would cover them."""
+SIGN = (0.45, 0.5)
+"""Half the width and half the height of the turtle or of a goal's flag, m."""
 
 
 Place = tuple[float, float]
@@ -221,7 +221,7 @@ def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: fl
         spine.set(visible=True, color=drawing.INK, linewidth=1.4, zorder=4)
     draw_obstacles(axes, recording.obstacles.values())
     last = poses[-1]
-    _draw_trail(axes, poses, jumps, [(last["x"], last["y"]), *((goal.x, goal.y + 0.4) for goal in goals)])
+    _draw_trail(axes, poses, jumps, [(last["x"], last["y"]), *((goal.x, goal.y + 0.35) for goal in goals)])
     for goal in goals:
         _draw_goal(axes, goal)
     draw_turtle(axes, last["x"], last["y"], last["theta"])
@@ -280,7 +280,8 @@ def _draw_start(axes: Axes, places: np.ndarray, trail: np.ndarray, signs: np.nda
     free = np.concatenate([places[0] + far * round_it for far in (1.0, 1.6, 2.2, 3.0)])
     free = np.clip(free, np.array(LABEL) + 0.05, WORLD - 0.05 - np.array(LABEL))
     covered = [
-        (np.abs(trail - place) < LABEL).all(axis=1).sum() + 20 * (np.hypot(*(signs - place).T) < NEAR).sum()
+        (np.abs(trail - place) < LABEL).all(axis=1).sum()
+        + 20 * (np.abs(signs - place) < np.add(LABEL, SIGN)).all(axis=1).sum()
         for place in free
     ]
     across, up = free[np.argmin(covered)]
