@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import command_system as system
@@ -137,6 +138,12 @@ def test_a_file_that_is_none_is_answered_in_a_line(content: str, demo: World, tm
     assert answer.code == 1 and answer.stderr.count("\n") == 1
     answer = type_in(demo, f"ros2 param load /param_demo {tmp_path}/none.yaml")
     assert answer.stderr == f"[Errno 2] No such file or directory: '{tmp_path}/none.yaml'\n"
+
+
+def test_a_file_that_never_ends_is_not_read(demo: World, tmp_path: Path) -> None:
+    for path in filter(os.path.exists, ("/dev/zero", str(tmp_path))):
+        answer = type_in(demo, f"ros2 param load /param_demo {path}")
+        assert answer.stderr == f"cannot read {path}: it is a folder or a device, not a file\n"
 
 
 def test_a_file_that_is_far_too_long_is_refused(demo: World, tmp_path: Path) -> None:

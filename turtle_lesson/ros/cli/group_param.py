@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..runtime import files
 from .arguments import HIDDEN_NODES, NODE, arg, flag
-from .typed_values import Unparsable, read_yaml
+from .typed_values import MAX_LENGTH, Unparsable, read_yaml
 from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
 
 if TYPE_CHECKING:
@@ -168,8 +168,13 @@ def load(args: Namespace, node: Node) -> None:
 
 def _read_file(path: str, node_name: str) -> dict[str, Any]:
     """The parameters that a file has for all nodes (`/**`) and for this one. Raises CommandError if it has none."""
+    file = Path(path)
     try:
-        content = read_yaml(Path(path).read_text(encoding="utf-8"), path)
+        # Devices are not read, and of a file no more than YAML may have: some never end.
+        if file.exists() and not file.is_file():
+            raise CommandError(f"cannot read {path}: it is a folder or a device, not a file")
+        with file.open(encoding="utf-8") as stream:
+            content = read_yaml(stream.read(MAX_LENGTH + 1), path)
     except (OSError, ValueError) as error:
         raise CommandError(str(error)) from None
     if not isinstance(content, dict):
