@@ -237,9 +237,8 @@ class _Evaluator:
 
     def run(self, calls: Iterable[Call]) -> Iterator[Command]:
         """The commands that take effect."""
-        opened: list[
-            tuple[Call, str]
-        ] = []  # each open if, and whether it is "waiting" for its branch, "taken" or "done"
+        # each open if, and whether it is "waiting" for its branch, "taken" or "done"
+        opened: list[tuple[Call, str]] = []
         for call in calls:
             active = all(state == "taken" for _, state in opened)
             if call.name == "if":
@@ -272,13 +271,8 @@ class _Evaluator:
         words = [(self._expanded(argument, call), argument.quoted) for argument in call.args]
         try:
             return "taken" if call.name == "else" or _holds(words, self.variables) else "waiting"
-        except (
-            SyntaxError,
-            TypeError,
-            re.error,
-            RecursionError,
-            MemoryError,
-        ):  # the last two: thousands of parentheses
+        # RecursionError and MemoryError come of thousands of parentheses
+        except (SyntaxError, TypeError, re.error, RecursionError, MemoryError):
             given = " ".join(f'"{word}"' for word, _ in words)
             said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
             reason = f"if({' '.join(word for word, _ in words)}) is not a condition that CMake knows"
