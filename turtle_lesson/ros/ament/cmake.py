@@ -177,6 +177,8 @@ def _arguments(tokens: Iterator[Token], name: Token) -> Iterator[Token]:
 _TRUE = {"1", "ON", "YES", "TRUE", "Y"}
 _FALSE = {"", "0", "OFF", "NO", "FALSE", "N", "IGNORE", "NOTFOUND"}
 _BINARY = re.compile(r"MATCHES|IN_LIST|IS_NEWER_THAN|(VERSION_|STR)?(EQUAL|(LESS|GREATER)(_EQUAL)?)")
+MOST_WORDS = 150
+"""How long the condition of an `if(…)` may be."""
 _UNARY = {"DEFINED", "TARGET", "EXISTS", "COMMAND", "POLICY", "TEST", "IS_DIRECTORY", "IS_ABSOLUTE"}
 
 
@@ -185,8 +187,10 @@ def _holds(words: list[tuple[str, bool]], variables: Mapping[str, str]) -> bool:
 
     Each test is replaced by its value, and what is left is an expression of Python's: CMake binds NOT, AND and OR alike. Tests
     that are not understood count as false, as they mostly are for a package of Python files.
-    Raises SyntaxError or TypeError for what is no condition.
+    Raises SyntaxError or TypeError for what is no condition, or has more words than Python can nest.
     """
+    if len(words) > MOST_WORDS:
+        raise SyntaxError
     parts = []
     waiting = words[::-1]
     while waiting:
@@ -271,8 +275,7 @@ class _Evaluator:
         words = [(self._expanded(argument, call), argument.quoted) for argument in call.args]
         try:
             return "taken" if call.name == "else" or _holds(words, self.variables) else "waiting"
-        # RecursionError and MemoryError come of thousands of parentheses
-        except (SyntaxError, TypeError, re.error, RecursionError, MemoryError):
+        except (SyntaxError, TypeError, re.error):
             given = " ".join(f'"{word}"' for word, _ in words)
             said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
             reason = f"if({' '.join(word for word, _ in words)}) is not a condition that CMake knows"
