@@ -99,7 +99,8 @@ def wait_until_it_answers(address: str, server: subprocess.Popen[bytes], log: Pa
         try:
             with urllib.request.urlopen(address, timeout=5):
                 return
-        except urllib.error.HTTPError:
+        except urllib.error.HTTPError as error:
+            error.close()
             return  # an answer, too
         except OSError:
             time.sleep(0.2)
