@@ -79,17 +79,19 @@ def _flaw(name: str, rules: Rules) -> Flaw | None:
     return None
 
 
+@lru_cache(maxsize=1000)  # a program that counts publishers once a second names the same node and topics
 def node_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a node's name."""
     return _flaw(name, _NODE_NAME)
 
 
+@lru_cache(maxsize=1000)
 def namespace_flaw(namespace: str) -> Flaw | None:
     """What is wrong with a full namespace such as `/robots/bob`."""
     return _flaw(namespace, _NAMESPACE)
 
 
-@lru_cache(maxsize=1000)  # a program that counts publishers once a second names the same topics
+@lru_cache(maxsize=1000)
 def topic_name_flaw(name: str) -> Flaw | None:
     """What is wrong with a topic's or service's name as a program gives it (`~`, `{node}` and relative names allowed)."""
     return _flaw(name, _ENDS_OF_TOPIC_NAME) or _letters_flaw(name) or _flaw(name, _TOKENS_OF_TOPIC_NAME)
