@@ -48,6 +48,8 @@ def drive(lesson: Any, kind: str, gain: float = 1.0) -> dict[str, Any] | None:
         experiment(drive, kind="well")
     if seed == 1 and kind == "list":
         return {"path": [1, 2]}
+    if seed == 1 and kind == "own name":
+        return {"outcome": "good"}
     chance = random.random(), float(np.random.random())
     return {
         "seconds": lesson.now,
@@ -58,7 +60,7 @@ def drive(lesson: Any, kind: str, gain: float = 1.0) -> dict[str, Any] | None:
     }
 
 
-KINDS = ["well", "raises", "exits", "long", "list", "nested"]
+KINDS = ["well", "raises", "exits", "long", "list", "nested", "own name"]
 
 
 @pytest.fixture(scope="module")
@@ -67,9 +69,9 @@ def results() -> Results:
 
 
 def test_there_is_a_row_for_each_combination_and_seed_in_their_order(results: Results) -> None:
-    assert len(results) == 18 and results.missing == 0
-    assert [row["run"] for row in results] == list(range(18))
-    assert [row["seed"] for row in results] == [0, 1, 7] * 6
+    assert len(results) == 21 and results.missing == 0
+    assert [row["run"] for row in results] == list(range(21))
+    assert [row["seed"] for row in results] == [0, 1, 7] * 7
     assert [row["kind"] for row in results] == [kind for kind in KINDS for _ in range(3)]
     seeds = ["run", "seed", "kind", "outcome", "seconds", "calls", "chance", "numpys", "even"]
     assert results.columns == [*seeds, "robot_time", "error", "traceback", "printed"]
@@ -86,10 +88,11 @@ def test_a_run_that_fails_is_a_row_and_the_others_go_on(results: Results) -> Non
         "long": "robot time",
         "list": "raised",
         "nested": "raised",
+        "own name": "raised",
     }
     assert set(results.where(seed=0)["outcome"]) == set(results.where(seed=7)["outcome"]) == {"ok"}
-    assert [row["run"] for row in results.failed] == [4, 7, 10, 13, 16]
-    assert repr(results).splitlines()[-1] == "18 runs, 5 failed: 4, 7, 10, 13, 16"
+    assert [row["run"] for row in results.failed] == [4, 7, 10, 13, 16, 19]
+    assert repr(results).splitlines()[-1] == "21 runs, 6 failed: 4, 7, 10, 13, 16, 19"
 
 
 def test_a_failed_row_says_where_and_what_was_printed_and_not_which_worker_it_was(results: Results) -> None:
@@ -109,6 +112,8 @@ def test_a_failed_row_says_where_and_what_was_printed_and_not_which_worker_it_wa
     assert "lesson.run(1000)" in long["traceback"]
     wrong = results.where(kind="list", seed=1).rows[0]["error"]
     assert wrong.startswith("TypeError: drive must return numbers, texts, True, False or None, got 'path': [1, 2]")
+    named = results.where(kind="own name", seed=1).rows[0]["error"]
+    assert named == "TypeError: drive returned 'outcome', a column that each table has already: give it another name"
     assert all(row["printed"] is None for row in results.ok)
 
 
@@ -229,7 +234,7 @@ def has_jobs(lesson: Any, jobs: int) -> None: ...
         (drive, {"kind": "a", "distro": "old"}, 'distro must be one of the releases "humble", "iron"'),
         (drive, {"kind": "a", "package": "nowhere"}, 'package must be "finished", "mine", None or the folder of a package'),
         (takes_no_lesson, {}, "takes_no_lesson must take the lesson as its first parameter: def takes_no_lesson(lesson): …"),
-        (has_jobs, {}, "has_jobs has a parameter 'jobs', as experiment() itself has: give it another name"),
+        (has_jobs, {}, "has_jobs has a parameter 'jobs', as experiment() or its table has: give it another name"),
         (holds_a_lock, {}, "holds_a_lock cannot be sent to a worker process: it uses lock"),
         (3, {}, "an experiment needs a function such as `def drive(lesson): …`, got 3"),
     ],

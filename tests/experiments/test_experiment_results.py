@@ -17,8 +17,17 @@ from turtle_lesson.experiments.results import wilson
 from turtle_lesson.experiments.table import read
 
 VALUES = [
-    {"seconds": 1.5, "name": 'a, "b"\n# c', "hits": 3, "fast": True, "mixed": 1, "empty": "", "odd": "a\rb"},
-    {"seconds": float("nan"), "name": None, "hits": -2, "fast": False, "mixed": "1", "empty": "x", "odd": None},
+    {"seconds": 1.5, "name": 'a, "b"\n# c', "hits": 3, "fast": True, "mixed": 1, "empty": "", "odd": "a\rb", "far": 1},
+    {
+        "seconds": float("nan"),
+        "name": None,
+        "hits": -2,
+        "fast": False,
+        "mixed": "1",
+        "empty": "x",
+        "odd": None,
+        "far": float("inf"),
+    },
     {"seconds": 1e300, "name": "ü", "hits": 2**70, "fast": None, "mixed": 2.0, "empty": None, "odd": "", "late": None},
 ]
 
@@ -78,7 +87,7 @@ def test_other_programs_read_the_files(tmp_path: Path) -> None:
     results = table(8)
     frame = pandas.read_csv(results.save(tmp_path / "runs.csv"), comment="#")
     np.testing.assert_equal(frame["seconds"].to_numpy(), results["seconds"])
-    assert frame["goal"].tolist() == ["(1, 2.5)"] * 8
+    assert frame["goal"].tolist() == ["[1, 2.5]"] * 8
     parquet = pandas.read_parquet(results.save(tmp_path / "runs.parquet"))
     np.testing.assert_equal(parquet["seconds"].to_numpy(), results["seconds"])
     head = (tmp_path / "runs.csv").read_text().splitlines()[:4]

@@ -73,9 +73,10 @@ def connected(client: Any, patience: float = PATIENCE) -> tuple[Client, bool]:
     except ImportError:
         raise ExperimentError("a cluster needs Dask, which is not here: pip install 'turtle-lesson[cluster]'") from None
     if isinstance(client, Client):
-        if client.status != "running":
+        if client.status != "running" or client.asynchronous:
+            what = "asynchronous" if client.asynchronous else client.status
             raise ExperimentError(
-                f"this client is {client.status}, so it has no cluster any more: make a new Client(…)"
+                f"this client is {what}: make a new Client(…), which is connected and waits for answers"
             )
         return client, False
     try:

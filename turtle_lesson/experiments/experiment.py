@@ -19,7 +19,7 @@ from ..ros.distro import chosen_release
 from ..ros.sim.strand import running_strand
 from ..session.lesson import START_ORDERS, package_folder
 from . import one_run
-from .one_run import OK, PLAIN, Ending, ExperimentError, Run, name_of, plain
+from .one_run import OK, OWN, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
 from .pools import LocalPool, cores
 from .replay import Replay
@@ -250,9 +250,11 @@ def _check_function(function: Callable[..., Any], parameters: dict[str, Any]) ->
     ):
         raise ExperimentError(f"{name} must take the lesson as its first parameter: def {name}(lesson): …")
     known = [each.name for each in accepted[1:] if each.kind in (kinds.POSITIONAL_OR_KEYWORD, kinds.KEYWORD_ONLY)]
-    own = [each for each in known if each in inspect.signature(experiment).parameters]
+    own = [each for each in known if each in {*OWN, *inspect.signature(experiment).parameters}]
     if own:
-        raise ExperimentError(f"{name} has a parameter {own[0]!r}, as experiment() itself has: give it another name")
+        raise ExperimentError(
+            f"{name} has a parameter {own[0]!r}, as experiment() or its table has: give it another name"
+        )
     if accepted[-1].kind is not kinds.VAR_KEYWORD:
         check_names(name, parameters, known)
     for parameter in accepted[1:]:

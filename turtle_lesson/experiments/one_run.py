@@ -39,6 +39,13 @@ VERSION: str = import_module("turtle_lesson").__version__  # the package itself 
 STACK = "stack"
 """The file in a worker's folder to which it writes where it is, when it is asked by SIGUSR1."""
 
+FIRST = ("run", "seed")
+LAST = ("robot_time", "error", "traceback", "printed")
+"""The columns at the beginning of a table, and at the end. Between them are what was swept, the outcome and what the function
+returned."""
+
+OWN = (*FIRST, "outcome", *LAST)
+
 PLAIN = (bool, int, float, str, type(None))
 """The types of what a table holds."""
 
@@ -156,6 +163,8 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
     for key, value in returned.items():
         if not isinstance(key, str):
             raise TypeError(f"{name} must name what it returns by texts, got {key!r:.80}")
+        if key in OWN:
+            raise TypeError(f"{name} returned {key!r}, a column that each table has already: give it another name")
         if not isinstance(plain(value), PLAIN):
             raise TypeError(
                 f"{name} must return numbers, texts, True, False or None, got {key!r}: {value!r:.80} "

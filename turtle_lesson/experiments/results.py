@@ -16,7 +16,7 @@ import numpy as np
 from ..lab import drawing
 from ..lab.drawing import Picture
 from ..lab.words import count, enumerated
-from .one_run import CPU_TIME, DIED, OK, VERSION, Ending, ExperimentError, Run, Setting, name_of
+from .one_run import CPU_TIME, DIED, FIRST, LAST, OK, OWN, VERSION, Ending, ExperimentError, Run, Setting, name_of
 from .payload import hash_of, hash_of_folders
 from .table import Table, read, save, text_of
 
@@ -25,11 +25,6 @@ if TYPE_CHECKING:
 
     from ..lab.drawing import Picture
     from .replay import Replay
-
-
-FIRST = ("run", "seed")
-LAST = ("robot_time", "error", "traceback", "printed")
-"""The columns at the beginning, and at the end. Between them are what was swept, the outcome and what the function returned."""
 
 
 class Results(Table):
@@ -67,7 +62,7 @@ class Results(Table):
         self.function, self.setting = function, setting
         self._returned = list(dict.fromkeys(name for _, ending in done for name in ending.values))
         rows = [self.row_of(run, ending) for run, ending in done]
-        super().__init__(rows, [*FIRST, *self.swept, "outcome", *self._returned, *LAST])
+        super().__init__(rows, list(dict.fromkeys([*FIRST, *self.swept, "outcome", *self._returned, *LAST])))
 
     def where(self, **values: Any) -> Results:
         """The rows in which columns have these values: `results.where(gain=2.0)`."""
@@ -229,7 +224,7 @@ def endings_of(path: str | Path, runs: Sequence[Run], mine: dict[str, Any]) -> l
             raise ExperimentError(
                 f"{path} cannot be resumed: its {name} is {theirs.get(name)!r}, and that of this experiment {mine[name]!r}"
             )
-    returned = [name for name in table.columns if name not in {*FIRST, *mine["swept"], "outcome", *LAST}]
+    returned = [name for name in table.columns if name not in {*OWN, *mine["swept"]}]
     rows = {repr((row["seed"], *(row[name] for name in mine["swept"]))): row for row in table.rows}
     found = []
     for run in runs:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import csv
 import html
 import io
@@ -16,7 +15,7 @@ import numpy as np
 
 from ..lab.words import did_you_mean, enumerated, shortened
 from ..ros.runtime import files
-from .one_run import ExperimentError
+from .one_run import ExperimentError, plain
 
 MOST_ROWS = 20
 """Rows that are shown."""
@@ -108,13 +107,16 @@ KEY = b"turtle_lesson"
 def save(table: Table, head: dict[str, Any], path: Path) -> Path:
     """Write a table to a CSV or Parquet file; `head` is what else is known of it, by name, as JSON can hold it.
 
-    A column of one type is written as it is; one that holds several types, tuples or odd texts, as Python's literals.
+    A column of one type is written as it is; one that holds several types, tuples or odd texts, as JSON.
     """
     check_suffix(path)
     kinds = {column: _kind([row[column] for row in table.rows if row[column] is not None]) for column in table.columns}
     head = head | {"columns": kinds}
     cells = [
-        {name: row[name] if kind != "literal" or row[name] is None else repr(row[name]) for name, kind in kinds.items()}
+        {
+            name: json.dumps(row[name]) if kind == "json" and row[name] is not None else row[name]
+            for name, kind in kinds.items()
+        }
         for row in table.rows
     ]
     if path.suffix.lower() == ".csv":
@@ -154,7 +156,7 @@ def read(path: Path) -> tuple[Table, dict[str, Any]]:
         rows = [{name: _value(row[name], kind) for name, kind in kinds.items()} for row in cells]
     except FileNotFoundError:
         raise ExperimentError(f"there is no file {path}") from None
-    except (OSError, ValueError, KeyError, TypeError, SyntaxError) as error:
+    except (OSError, ValueError, KeyError, TypeError) as error:
         raise ExperimentError(f"{path} is no table that results.save() has written ({error})") from None
     return Table(rows, list(kinds)), head
 
@@ -171,10 +173,10 @@ def _pyarrow() -> tuple[Any, Any]:
 def _kind(values: Sequence[Any]) -> str:
     kind = {type(value).__name__ for value in values}
     if kind == {"int"} and any(abs(value) >= 2**63 for value in values):
-        return "literal"
+        return "json"
     if kind <= {"str"}:
-        return "literal" if any(value == "" or "\r" in value for value in values) else "str"
-    return kind.pop() if kind in ({"int"}, {"float"}, {"bool"}) else "literal"
+        return "json" if any(value == "" or "\r" in value for value in values) else "str"
+    return kind.pop() if kind in ({"int"}, {"float"}, {"bool"}) else "json"
 
 
 def _value(cell: Any, kind: str) -> Any:
@@ -183,4 +185,4 @@ def _value(cell: Any, kind: str) -> Any:
         return None
     if kind == "str" or not isinstance(cell, str):
         return cell
-    return float(cell) if kind == "float" else ast.literal_eval(cell)
+    return cell == "True" if kind == "bool" else float(cell) if kind == "float" else plain(json.loads(cell))

@@ -159,7 +159,6 @@ class LabNode(Node):
 
     def __init__(self, context: Context, hop: Action) -> None:
         self._lab_hop = hop  # called with an action and its arguments, has the loop call that action
-        self._lab_alive: dict[Any, Action] = {}  # what is called back by the loop, by the entity that it belongs to
         self._lab_unawaited = Unawaited()
         super().__init__(
             "_lab", context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
@@ -173,18 +172,16 @@ class LabNode(Node):
 
         Nothing is called when a message comes, but all that have come are taken at each frame.
         """
-        hear = callback
+        hear: Action = lambda message, info=None: callback(message, info)  # noqa: E731  # one argument is enough for Humble
         with suppress(TypeError):
             inspect.signature(callback).bind(object())
-            hear = lambda message, info: callback(message)  # noqa: E731
+            hear = lambda message, info=None: callback(message)  # noqa: E731
         options["callback_group"] = self._lab_unawaited
-        subscription = super().create_subscription(msg_type, topic, lambda _: None, qos_profile, *more, **options)
-        self._lab_alive[subscription] = hear
-        return subscription
+        return super().create_subscription(msg_type, topic, hear, qos_profile, *more, **options)
 
     def _take(self) -> None:
         """Take what has come since the last frame, in the spinning thread; the loop hears it, a topic in one go."""
-        for subscription in [each for each in list(self._lab_alive) if isinstance(each, Subscription)]:
+        for subscription in list(self.subscriptions):
             handle: Any = subscription.handle  # of the real rclpy
             take = partial(handle.take_message, subscription.msg_type, subscription.raw)
             with handle:  # raises where the loop has just destroyed it, which `_spin` knows
@@ -194,8 +191,8 @@ class LabNode(Node):
 
     def _hear(self, subscription: Subscription, taken: list[tuple[Any, Any]]) -> None:
         for message, info in taken:
-            if hear := self._lab_alive.get(subscription):
-                hear(message, info)
+            if subscription in self.subscriptions:
+                subscription.callback(message, info)
 
     def create_timer(self, timer_period_sec: float, callback: Action, *more: Any, **options: Any) -> Timer:
         """As every node's. Ticks for which the loop had no time are left out, as an executor leaves them out."""
@@ -211,11 +208,10 @@ class LabNode(Node):
         def call(info: dict[str, Any]) -> None:
             nonlocal waiting
             waiting = False
-            if timer in self._lab_alive:
+            if timer in self.timers:
                 callback(**info)
 
         timer = super().create_timer(timer_period_sec, beat, *more, **options)
-        self._lab_alive[timer] = callback
         return timer
 
     def create_client(self, srv_type: Any, srv_name: str, *more: Any, **options: Any) -> Client:
@@ -230,27 +226,11 @@ class LabNode(Node):
             return future
 
         def answered(action: Action, future: Any) -> None:
-            if client in self._lab_alive:
+            if client in self.clients:
                 action(future)
 
         client.call_async = call_async  # type: ignore[method-assign]
-        self._lab_alive[client] = call_async
         return client
-
-    def destroy_subscription(self, subscription: Any) -> bool:
-        """As every node's."""
-        self._lab_alive.pop(subscription, None)
-        return super().destroy_subscription(subscription)
-
-    def destroy_timer(self, timer: Any) -> bool:
-        """As every node's."""
-        self._lab_alive.pop(timer, None)
-        return super().destroy_timer(timer)
-
-    def destroy_client(self, client: Any) -> bool:
-        """As every node's."""
-        self._lab_alive.pop(client, None)
-        return super().destroy_client(client)
 
     def destroy_node(self) -> None:
         """As every node's. A later query of the graph, such as that of an old widget that is shown again, finds no nodes."""

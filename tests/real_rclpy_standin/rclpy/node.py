@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 from typing import Any
 
@@ -70,6 +70,18 @@ class Node:
 
     def get_namespace(self) -> str:
         return "/"
+
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        yield from (each for each in self._entities if isinstance(each, Subscription))
+
+    @property
+    def clients(self) -> Iterator[Client]:
+        yield from (each for each in self._entities if isinstance(each, Client))
+
+    @property
+    def timers(self) -> Iterator[Timer]:
+        yield from self._timers
 
     def get_clock(self) -> Clock:
         return Clock()

@@ -38,7 +38,7 @@ class Subscription(_network.End):
     ) -> None:
         self.msg_type, self.raw, self.callback_group = kind, raw, callback_group
         self.handle = Handle(self)
-        self._callback, self._with_info = callback, not HUMBLE and not _fits(callback, 1)
+        self.callback, self._with_info = callback, not HUMBLE and not _fits(callback, 1)
         if not _fits(callback, 2 if self._with_info else 1):
             raise RuntimeError(
                 "Subscription.__init__(): callback should be either be callable with one argument or two"
@@ -65,7 +65,7 @@ class Subscription(_network.End):
         if not self._queue or not self._is_awaited():
             return None
         message, info = self._pop()
-        return (lambda: self._callback(message, info)) if self._with_info else lambda: self._callback(message)
+        return (lambda: self.callback(message, info)) if self._with_info else lambda: self.callback(message)
 
     def _pop(self) -> tuple[Any, dict[str, int]]:
         message, stamp = self._queue.popleft()
