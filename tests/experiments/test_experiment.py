@@ -230,7 +230,7 @@ def has_jobs(lesson: Any, jobs: int) -> None: ...
         (drive, {"kind": "a", "seeds": 5}, "seeds must be a list or range of whole numbers, got 5: try seeds=range(10)"),
         (drive, {"kind": "a", "jobs": 0}, "jobs must be a whole number from 1 to 512, got 0"),
         (drive, {"kind": "a", "cpu_time": -1}, "cpu_time must be a number of seconds above 0, got -1"),
-        (drive, {"kind": "a", "start_order": "any"}, "start_order must be 'as written' or 'shuffled', got 'any'"),
+        (drive, {"kind": "a", "start_order": "any"}, "start_order must be \"as written\" or \"shuffled\", got 'any'"),
         (drive, {"kind": "a", "distro": "old"}, 'distro must be one of the releases "humble", "iron"'),
         (drive, {"kind": "a", "package": "nowhere"}, 'package must be "finished", "mine", None or the folder of a package'),
         (takes_no_lesson, {}, "takes_no_lesson must take the lesson as its first parameter: def takes_no_lesson(lesson): …"),

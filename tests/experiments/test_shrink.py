@@ -11,7 +11,7 @@ import pytest
 from turtle_lesson.experiments import ExperimentError, experiment
 from turtle_lesson.experiments.experiment import plan, search_failure
 from turtle_lesson.experiments.one_run import OK, RAISED, Ending, Run, call_in
-from turtle_lesson.experiments.shrink import MOST_RUNS, Smallest, rounder, smallest_change
+from turtle_lesson.experiments.shrink import MOST_RUNS, Smallest, rounder
 
 
 def shrunk(fails: Callable[..., object], base: dict[str, Any], failed: dict[str, Any]) -> tuple[Smallest, list[Any]]:
@@ -29,7 +29,8 @@ def shrunk(fails: Callable[..., object], base: dict[str, Any], failed: dict[str,
 
     ending = carry_out(Run(17, 17, failed))
     assert ending.outcome == RAISED, "the run that is made smaller must fail"
-    found = smallest_change(Run(17, 17, failed), ending, base, carry_out)
+    found = Smallest(Run(17, 17, failed), ending, base, carry_out)
+    found.search()
     assert fails(**found.run.parameters), "what is reported was tried, and fails"
     assert len(tried) == found.tried + 1 <= MOST_RUNS + 1
     assert len({repr(each) for each in tried}) == len(tried), "nothing is tried twice"
@@ -122,7 +123,8 @@ def test_a_stop_keeps_what_is_known(capsys: pytest.CaptureFixture[str]) -> None:
             raise KeyboardInterrupt
         return Ending(RAISED, error="E: why") if run.parameters["loss"] > 0 else Ending(OK)
 
-    found = smallest_change(Run(0, 0, {"loss": 1.0}), Ending(RAISED, error="E: why"), {"loss": 0.0}, carry_out)
+    found = Smallest(Run(0, 0, {"loss": 1.0}), Ending(RAISED, error="E: why"), {"loss": 0.0}, carry_out)
+    found.search()
     assert found.change == {"loss": 0.25} and not found.complete
     assert "Stopped" in capsys.readouterr().out
 

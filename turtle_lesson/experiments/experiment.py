@@ -15,16 +15,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..lab.words import count, did_you_mean, enumerated
-from ..ros.distro import chosen_release
 from ..ros.sim.strand import running_strand
-from ..session.lesson import START_ORDERS, package_folder
+from ..session.lesson import check_world
 from . import one_run
 from .one_run import OK, OWN, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
 from .pools import LocalPool, cores
 from .replay import Replay
 from .results import Results, described, endings_of
-from .shrink import smallest_change
+from .shrink import Smallest
 
 if TYPE_CHECKING:
     from .cluster import ClusterPool
@@ -184,7 +183,8 @@ def search_failure(
     if first != run.number:  # the user has stopped it before all others of a lower number were over
         return done, None
     print(f"Run {run.number} (seed {run.seed}) failed: {ending.error or ending.outcome}")
-    found = smallest_change(run, ending, runs[0].parameters, lambda another: next(iter(pool.carry_out([another])))[1])
+    found = Smallest(run, ending, runs[0].parameters, lambda another: next(iter(pool.carry_out([another])))[1])
+    found.search()
     if text := found.told():
         print(text)
     return done[: first + 1], found.change
@@ -279,15 +279,10 @@ def _is_plain(value: Any) -> bool:
 def checked_world(package: str | Path | None, distro: str | None, start_order: str) -> dict[str, Any]:
     """What the worlds of all runs have in common, by the names of `start`. Raises ExperimentError for what makes no sense."""
     try:
-        if package != "mine":
-            package_folder(package)
-        chosen_release(distro)
+        check_world(package, distro, start_order)
     except ValueError as error:
         raise ExperimentError(str(error)) from None
-    if start_order not in START_ORDERS:
-        raise ExperimentError(f"start_order must be {' or '.join(map(repr, START_ORDERS))}, got {start_order!r}")
-    package = str(package) if isinstance(package, Path) else package
-    return {"package": package, "distro": distro, "start_order": start_order}
+    return {"package": package and str(package), "distro": distro, "start_order": start_order}
 
 
 def check_limits(jobs: Any, **limits: Any) -> None:

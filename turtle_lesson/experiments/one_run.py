@@ -11,7 +11,6 @@ import pickle
 import random
 import shutil
 import signal
-import tarfile
 import threading
 import zlib
 from collections.abc import Callable
@@ -180,11 +179,11 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
 def unpack(packed: bytes, folder: Path) -> None:
     """Write the files of an archive into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    with tarfile.open(fileobj=io.BytesIO(zlib.decompress(packed))) as tar:
-        if hasattr(tarfile, "data_filter"):
-            tar.extractall(folder, filter="data")
-        else:  # Python 3.11 before 3.11.4
-            tar.extractall(folder)
+    for place, (mode, data) in pickle.loads(zlib.decompress(packed)).items():
+        path = folder / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+        path.chmod(mode)
 
 
 _setting: Setting | None = None

@@ -5,10 +5,9 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import inspect
-import io
 import linecache
+import pickle
 import sys
-import tarfile
 import zlib
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
@@ -37,17 +36,13 @@ def setting_for(function: Callable[..., Any], package: str | Path | None = "fini
 
 
 def archive(folder: Path, left_out: Collection[str] = ()) -> bytes:
-    """The files of a folder as a compressed tar archive, always the same for the same files."""
-    packed = io.BytesIO()
-    with tarfile.open(fileobj=packed, mode="w") as tar:
-        for path in sorted(folder.rglob("*")):
-            place = path.relative_to(folder)
-            if path.is_file() and place.parts[0] not in left_out and "__pycache__" not in place.parts:
-                data = path.read_bytes()
-                entry = tarfile.TarInfo(place.as_posix())
-                entry.size, entry.mode = len(data), path.stat().st_mode & 0o777
-                tar.addfile(entry, io.BytesIO(data))
-    return zlib.compress(packed.getvalue(), 1)
+    """The files of a folder, each with its mode, by where they are in it; packed, and always the same for the same files."""
+    files = {}
+    for path in sorted(folder.rglob("*")):
+        place = path.relative_to(folder)
+        if path.is_file() and place.parts[0] not in left_out and "__pycache__" not in place.parts:
+            files[place.as_posix()] = (path.stat().st_mode & 0o777, path.read_bytes())
+    return zlib.compress(pickle.dumps(files, protocol=4), 1)
 
 
 def hash_of_folders(folders: dict[str, bytes]) -> str:

@@ -17,11 +17,11 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..lab.words import enumerated, number, same, shortened
+from ..lab.words import number, same, shortened
 from ..ros.runtime import files
 from ..ros.sim import errors
 from ..ros.sim.errors import WorldClosed
@@ -31,8 +31,6 @@ from ..ros.stdlib.ownership import Notebook
 from ..session import views
 from ..session.lesson import LONGEST_RUN, Lesson, check_seconds
 from .one_run import (
-    CPU_TIME,
-    DIED,
     OK,
     Ending,
     ExperimentError,
@@ -46,10 +44,6 @@ from .one_run import (
     open_run,
     unpack,
 )
-from .payload import hash_of, setting_for
-
-if TYPE_CHECKING:
-    from .results import Results
 
 PROGRESS = "TURTLE_LESSON_PROGRESS"
 
@@ -180,34 +174,6 @@ class Replay:
             f"{at} of robot time{how}. That is not as in the table: {name} was {there} there, and is {here} here. "
             "The function, or something that it uses, has changed since then."
         )
-
-
-def replay_of(results: Results, wanted: int | None, function: Callable[..., Any] | None) -> Replay:
-    """Open a run of a table. Raises ExperimentError where that cannot be."""
-    rows = {row["run"]: row for row in results.rows}
-    if wanted is None:
-        wanted = next((row["run"] for row in results.failed), None)
-        if wanted is None:
-            raise ExperimentError("no run of this table has failed: say which one to open, as in results.replay(0)")
-    if wanted not in rows:
-        raise ExperimentError(f"there is no run {wanted!r} in this table: it has {enumerated(map(str, rows))}")
-    row, run, setting = rows[wanted], results.runs[wanted], results.setting
-    assert results.function is not None and setting is not None
-    if function is not None:
-        simulator, limit = setting.simulator, setting.robot_time
-        setting = setting_for(function, simulator=simulator, robot_time=limit, **results.about["world"])
-        now, what = function, "it is replayed as it is now, and may end otherwise."
-    else:
-        module = sys.modules.get(getattr(results.function, "__module__", ""))  # what its name means there now
-        now = getattr(module, getattr(results.function, "__qualname__", ""), results.function)
-        what = "it is replayed as it was then."
-    if results.about["function"] != f"{name_of(now)} {hash_of(now)}":
-        print(f"{name_of(now)}, or something that it uses, has changed since this experiment; {what}")
-    if row["outcome"] == DIED:
-        print(f"Run {run.number} ended its worker process. What did that may end this kernel, too.")
-    if row["outcome"] == CPU_TIME:
-        print(f"Run {run.number} computed for too long. Nothing limits that here; the stop button interrupts it.")
-    return Replay(setting, run, lambda ending: results.row_of(run, ending), row)
 
 
 class Surroundings:

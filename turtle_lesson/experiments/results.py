@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from importlib.metadata import version
@@ -17,14 +18,12 @@ from ..lab import drawing
 from ..lab.drawing import Picture
 from ..lab.words import count, enumerated
 from .one_run import CPU_TIME, DIED, FIRST, LAST, OK, OWN, VERSION, Ending, ExperimentError, Run, Setting, name_of
-from .payload import hash_of, hash_of_folders
+from .payload import hash_of, hash_of_folders, setting_for
+from .replay import Replay
 from .table import Table, read, save, text_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from ..lab.drawing import Picture
-    from .replay import Replay
 
 
 class Results(Table):
@@ -106,9 +105,30 @@ class Results(Table):
 
         `function` is called instead, as it is now. Raises ExperimentError where there is no such run.
         """
-        from .replay import replay_of
-
-        return replay_of(self, number, function)
+        rows = {row["run"]: row for row in self.rows}
+        if number is None:
+            number = next((row["run"] for row in self.failed), None)
+            if number is None:
+                raise ExperimentError("no run of this table has failed: say which one to open, as in results.replay(0)")
+        if number not in rows:
+            raise ExperimentError(f"there is no run {number!r} in this table: it has {enumerated(map(str, rows))}")
+        row, run, setting = rows[number], self.runs[number], self.setting
+        assert self.function is not None and setting is not None
+        if function is not None:
+            simulator, limit = setting.simulator, setting.robot_time
+            setting = setting_for(function, simulator=simulator, robot_time=limit, **self.about["world"])
+            now, what = function, "it is replayed as it is now, and may end otherwise."
+        else:
+            module = sys.modules.get(getattr(self.function, "__module__", ""))  # what its name means there now
+            now = getattr(module, getattr(self.function, "__qualname__", ""), self.function)
+            what = "it is replayed as it was then."
+        if self.about["function"] != f"{name_of(now)} {hash_of(now)}":
+            print(f"{name_of(now)}, or something that it uses, has changed since this experiment; {what}")
+        if row["outcome"] == DIED:
+            print(f"Run {number} ended its worker process. What did that may end this kernel, too.")
+        if row["outcome"] == CPU_TIME:
+            print(f"Run {number} computed for too long. Nothing limits that here; the stop button interrupts it.")
+        return Replay(setting, run, lambda ending: self.row_of(run, ending), row)
 
     def save(self, path: str | Path) -> Path:
         """Write the table to a file, "runs.csv" or "runs.parquet", with versions and settings; `experiment(resume=…)` reads it.

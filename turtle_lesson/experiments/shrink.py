@@ -28,7 +28,7 @@ NEAR = 0.01
 
 
 class Smallest:
-    """The smallest change that is known to fail.
+    """The smallest change from `base` with which a run is known to fail as it did.
 
     Attributes:
         run, ending: the run, and what came of it.
@@ -64,7 +64,13 @@ class Smallest:
         return f"The smallest change that still fails with this seed: {', '.join(parts)} ({tried}).{rest}"
 
     def search(self) -> None:
-        """Make the change smaller until nothing changes, or until there were too many runs."""
+        """Make the change smaller until nothing changes, there were too many runs, or the user stops it (KeyboardInterrupt)."""
+        try:
+            self._search()
+        except KeyboardInterrupt:
+            print("Stopped; a smaller change was not looked for any further.")
+
+    def _search(self) -> None:
         searched: dict[str, list[Any]] = {}
         while self.tried < MOST_RUNS and not self.complete:
             before = self.run.parameters
@@ -110,21 +116,6 @@ class Smallest:
                 passes = middle
         if not whole:
             self._fails_with(name, rounder(passes, fails))
-
-
-def smallest_change(
-    failed: Run, ending: Ending, base: Mapping[str, Any], carry_out: Callable[[Run], Ending]
-) -> Smallest:
-    """Look for the smallest change from `base` with which this run fails as it did.
-
-    A stop by the user (KeyboardInterrupt) ends the search with what is known by then.
-    """
-    found = Smallest(failed, ending, base, carry_out)
-    try:
-        found.search()
-    except KeyboardInterrupt:
-        print("Stopped; a smaller change was not looked for any further.")
-    return found
 
 
 def rounder(passes: float, fails: float) -> float:

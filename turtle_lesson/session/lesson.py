@@ -35,9 +35,6 @@ if TYPE_CHECKING:
     from ..turtlesim.obstacles import Obstacle
 
 
-START_ORDERS = ("as written", "shuffled")
-"""In which order the programs of a launch file come up."""
-
 LONGEST_RUN = 1e9
 """Seconds of robot time that one run may take: thirty years are enough for every mistake."""
 
@@ -79,12 +76,9 @@ def start(
         )
     if not isinstance(seed, int):
         raise ValueError(f"seed must be a whole number, got {seed!r}: try start(seed=0)")
-    chosen_release(distro)
-    if start_order not in START_ORDERS:
-        raise ValueError(f'start_order must be "as written" or "shuffled", got {start_order!r}')
     page = None if page is None else page_named(page)
     package = "mine" if page and package == "finished" else package
-    source = None if package == "mine" else package_folder(package)
+    source = check_world(package, distro, start_order)
     files.begin_terminal()
     if page is not None:
         print(workspace().prepare(page).state())
@@ -345,9 +339,15 @@ def underlay_packages() -> list[Package]:
     return packages
 
 
-def package_folder(package: str | Path | None) -> Path | None:
-    """The source folder of the package that `start` is asked for, None for none. Raises ValueError where it is not there."""
-    if package is None:
+def check_world(package: str | Path | None, distro: str | None, start_order: str) -> Path | None:
+    """The source folder of the package that `start` is asked for; None for none, and for the learner's own.
+
+    Raises ValueError where it is not there, and for a release or an order that does not exist.
+    """
+    chosen_release(distro)
+    if start_order not in ("as written", "shuffled"):
+        raise ValueError(f'start_order must be "as written" or "shuffled", got {start_order!r}')
+    if package in (None, "mine"):
         return None
     if package == "finished":
         return FINISHED

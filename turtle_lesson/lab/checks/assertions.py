@@ -112,7 +112,7 @@ def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> str:
         for _ in range(5):
             probe.target.step(0.01)  # also where the time of the check is over
 
-    probe.at_the_end(put_back)
+    probe.clean_up.callback(put_back)
     return ""
 
 

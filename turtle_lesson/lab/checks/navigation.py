@@ -117,12 +117,32 @@ def put(probe: Probe, place: Goal) -> None:
     probe.wait(3 * TICK)
 
 
-def drive_round(probe: Probe, speed: float, turn: float, seconds: float) -> None:
-    """Command a circle (m/s and rad/s) for some seconds, ten times a second, then a stop."""
+def circle(
+    probe: Probe, topic: str, type_name: str, speed: float, turn: float, seconds: float, before: float, after: float
+) -> tuple[float, float, list[tuple[Heard, Heard]]]:
+    """What a topic says while the turtle drives in a circle (m/s and rad/s) for some seconds, and stands before and after that.
+
+    Returns when the drive began and ended, and each message with the pose before it. Raises CannotLook where none comes, or the
+    turtle does not move.
+    """
+    poses, heard = probe.listen(POSE, POSE_TYPE), probe.listen(topic, type_name)
+    probe.wait(before)
+    began, first_pose, first = probe.now, len(poses), len(heard)
     for _ in range(round(10 * seconds)):
         probe.publish(COMMANDS, COMMAND_TYPE, linear__x=speed, angular__z=turn)
         probe.wait(0.1)
     probe.publish(COMMANDS, COMMAND_TYPE)
+    ended = probe.now
+    probe.wait(after)
+    poses = poses[first_pose:]
+    xs = [each.message.x for each in poses] or [0.0]
+    if max(xs) - min(xs) < 0.1:
+        raise CannotLook(f"the turtle does not move when {COMMANDS} says so: is the simulator running?")
+    found = [(each, next((pose for pose in reversed(poses) if pose.at <= each.at), None)) for each in heard[first:]]
+    pairs = [(each, pose) for each, pose in found if pose]
+    if not pairs:
+        raise CannotLook(f"no message came on {topic} while the turtle drove")
+    return began, ended, pairs
 
 
 def ask_for(probe: Probe, goal: Goal, timeout: float) -> Answer:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from ..words import angle, count, number, turned
 from .assertions import no_errors, node, publishes, rate, some, subscribes
-from .navigation import COMMANDS, POSE, POSE_TYPE, drive_round
+from .navigation import POSE, circle
 from .probe import Heard, Probe, field, remembered
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
@@ -70,9 +70,8 @@ def battery_watch() -> list[Expectation]:
     ]
 
 
-SPEED, TURN, CIRCLE = 0.5, 1.6, 4.0
-"""The turtle is driven so fast, m/s and rad/s, for so long, s: a whole circle, 0.6 m wide."""
-
+SPEED = 0.5
+"""The turtle is driven so fast, m/s, in a whole circle, 0.6 m wide."""
 
 Pair = tuple[Heard, Heard]
 """A status, and the pose before it."""
@@ -80,26 +79,10 @@ Pair = tuple[Heard, Heard]
 
 @remembered
 def ride(probe: Probe) -> tuple[list[Pair], list[Pair], list[Heard]]:
-    """Drive the turtle in a circle: all pairs, those during the drive, and the statuses after the turtle had stopped.
-
-    Raises CannotLook where nothing is heard, or the turtle does not move.
-    """
-    poses, statuses = probe.listen(POSE, POSE_TYPE), probe.listen(STATUS, STATUS_TYPE)
-    probe.wait(0.3)
-    began, first_pose, first_status = probe.now, len(poses), len(statuses)
-    drive_round(probe, SPEED, TURN, CIRCLE)
-    ended = probe.now
-    probe.wait(1.0)
-    poses, statuses = poses[first_pose:], statuses[first_status:]
-    xs = [each.message.x for each in poses] or [0.0]
-    if max(xs) - min(xs) < 0.1:
-        raise CannotLook(f"the turtle does not move when {COMMANDS} says so: is the simulator running?")
-    before = [(each, next((pose for pose in reversed(poses) if pose.at <= each.at), None)) for each in statuses]
-    pairs = [(status, pose) for status, pose in before if pose]
-    if not pairs:
-        raise CannotLook(f"no message came on {STATUS} while the turtle drove")
+    """Drive the turtle in a circle: all pairs, those during the drive, and the statuses after the turtle had stopped."""
+    began, ended, pairs = circle(probe, STATUS, STATUS_TYPE, SPEED, 1.6, 4.0, before=0.3, after=1.0)
     driving = [(status, pose) for status, pose in pairs if began + 0.3 < status.at < ended]
-    return pairs, driving, [each for each in statuses if each.at > ended + 0.3]
+    return pairs, driving, [status for status, _ in pairs if status.at > ended + 0.3]
 
 
 @expectation("x, y, theta follow the turtle")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -190,8 +189,8 @@ def system() -> list[Expectation]:
         Expectation(f"every goal reached within {NEAR:g} m, for {MINUTES:g} minutes", _reached),
         Expectation("time_taken within 0.1 s of the moving time", _honest),
         Expectation("a near goal is answered within 2 s", _near_goal),
-        _rated("status every 100 ms ± 10 ms all the time", STATUS, Shift.status_rate),
-        _rated("a scan every 200 ms ± 20 ms all the time", page_05.SCAN, Shift.scan_rate),
+        _rated("status every 100 ms ± 10 ms all the time", STATUS),
+        _rated("a scan every 200 ms ± 20 ms all the time", page_05.SCAN),
         page_05.sees_three(),
         no_errors(),
     ]
@@ -212,24 +211,24 @@ def _from_workspace(probe: Probe) -> Seen:
     return Seen(not others, f"{listed(others)} came from elsewhere" if others else "they are", step)
 
 
+RATES = {STATUS: (STATUS_TYPE, 10, 0.010), page_05.SCAN: (page_05.SCAN_TYPE, 5, 0.020)}
+"""What comes all the time: its type and rate (Hz), and how much later or sooner (s) a message may come."""
+
+
 @dataclass
 class Shift:
     """Five minutes of work, goal after goal."""
 
     drives: list[Drive] = field(default_factory=list)
-    statuses: list[Heard] = field(default_factory=list)
-    scans: list[Heard] = field(default_factory=list)
+    heard: dict[str, list[Heard]] = field(default_factory=dict)
+    """By topic, what was heard meanwhile."""
     whole: bool = True
     """Whether it took all of its time: it is cut short after a goal that was missed, and where messages come at a
     wrong rate after the first goals."""
 
-    def status_rate(self) -> Seen:
-        """Whether ten statuses came a second."""
-        return judge_rate(self.statuses, 10, 0.010)
-
-    def scan_rate(self) -> Seen:
-        """Whether five scans came a second."""
-        return judge_rate(self.scans, 5, 0.020)
+    def pace(self, topic: str) -> Seen:
+        """Whether the messages of a topic came at their rate."""
+        return judge_rate(self.heard.get(topic, []), *RATES[topic][1:])
 
 
 @remembered
@@ -237,16 +236,15 @@ def shift(probe: Probe) -> Shift:
     """Carry the work out. Raises CannotLook where there is no navigator."""
     probe.wait(1.0)  # an interval may still be of the rate that a parameter had before
     done = Shift()
-    with suppress(CannotLook):
-        done.statuses = probe.listen(STATUS, STATUS_TYPE)
-    with suppress(CannotLook):
-        done.scans = probe.listen(page_05.SCAN, page_05.SCAN_TYPE)
+    for topic, (type_name, *_) in RATES.items():
+        with suppress(CannotLook):
+            done.heard[topic] = probe.listen(topic, type_name)
     end = probe.now + 60 * MINUTES
     while done.whole and probe.now < end:
         made = len(done.drives)
         done.drives.append(drive(probe, Way(f"drive {made}", None, GOALS[made % len(GOALS)])))
         a_round = len(done.drives) % len(GOALS) == 0
-        uneven = a_round and not (done.status_rate().good and done.scan_rate().good)
+        uneven = a_round and not all(done.pace(topic).good for topic in RATES)
         done.whole = not missed(done.drives[-1]) and not uneven
     return done
 
@@ -293,8 +291,8 @@ def _just_ahead(pose: Any) -> Goal:
 
 
 @expectation("{expected}")
-def _rated(probe: Probe, expected: str, topic: str, rate: Callable[[Shift], Seen]) -> Seen:
+def _rated(probe: Probe, expected: str, topic: str) -> Seen:
     done = shift(probe)
-    if not (done.statuses if topic == STATUS else done.scans):
+    if not done.heard.get(topic):
         raise CannotLook(f"nothing was heard on {topic}")
-    return rate(done)
+    return done.pace(topic)

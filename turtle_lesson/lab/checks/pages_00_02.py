@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,10 +12,13 @@ from ...learner.workspace import workspace
 from ..recording import NANOSECONDS
 from ..words import angle, count, number, point, turned
 from .assertions import answers, no_errors, node, offers, publishes, rate, relays, some, subscribes
-from .navigation import COMMANDS, NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, away, drive_round, where
+from .navigation import NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, away, circle, where
 from .probe import Probe, field, interface, remembered
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen, hinted
+
+if TYPE_CHECKING:
+    from robot_controller.srv import NavigateTo
 
 WELCOME, TOPICS, SERVICES = "00_welcome", "01_publish_and_subscribe", "02_services_and_interfaces"
 
@@ -192,25 +194,8 @@ def reporter() -> list[Expectation]:
 
 def _is_news(probe: Probe) -> Seen:
     """Drive the turtle once round a circle, so that x rises and falls, and compare each report with the pose before it."""
-    poses, reports = probe.listen(POSE, POSE_TYPE), probe.listen(REPORT, REPORT_TYPE)
-    probe.wait(0.1)
-    if not poses:
-        raise CannotLook(f"no pose comes on {POSE}")
-    first_pose, first_report = len(poses) - 1, len(reports)
-    drive_round(probe, 1.0, 1.0, 6.3)
-    probe.wait(0.1)
-    xs = [each.message.x for each in poses[first_pose:]]
-    if max(xs) - min(xs) < 0.1:
-        raise CannotLook(f"the turtle does not move when {COMMANDS} says so")
-    pairs = [
-        (
-            float(field(said.message, "data")),
-            next(float(pose.message.x) for pose in reversed(poses) if pose.at <= said.at),
-        )
-        for said in reports[first_report:]
-    ]
-    if not pairs:
-        raise CannotLook(f"no message came on {REPORT} while the turtle drove")
+    _, _, heard = circle(probe, REPORT, REPORT_TYPE, 1.0, 1.0, 6.3, before=0.1, after=0.1)
+    pairs = [(float(field(said.message, "data")), float(pose.message.x)) for said, pose in heard]
     wrong = [(said, true) for said, true in pairs if not abs(said - true) <= 0.1]
     said, true = wrong[0] if wrong else pairs[-1]
     seen = f"it said {number(said)} when x was {number(true)}"
@@ -258,19 +243,18 @@ def interfaces() -> list[Expectation]:
     """The package robot_controller is built and sourced, with its message and its service."""
     return [
         _has_fields("robot_controller/msg/TurtleStatus", STATUS),
-        _has_fields(NAVIGATE_TYPE, GOAL, "request", lambda kind: kind.Request),
-        _has_fields(NAVIGATE_TYPE, RESULT, "response", lambda kind: kind.Response),
+        _has_fields(NAVIGATE_TYPE, GOAL, "request"),
+        _has_fields(NAVIGATE_TYPE, RESULT, "response"),
     ]
 
 
-def _has_fields(
-    type_name: str, fields: dict[str, str], part: str = "", choose: Callable[[Any], Any] = lambda kind: kind
-) -> Expectation:
+def _has_fields(type_name: str, fields: dict[str, str], part: str = "") -> Expectation:
     """An interface that can be imported and has exactly these fields, in this order."""
 
     def look(probe: Probe) -> Seen:
         try:
-            found = dict(choose(interface(type_name)).get_fields_and_field_types())
+            kind = interface(type_name)
+            found = dict((getattr(kind, part.capitalize()) if part else kind).get_fields_and_field_types())
         except CannotLook as reason:
             return Seen(False, str(reason), hinted(_cause(type_name), 2))
         good = list(found.items()) == list(fields.items())
@@ -318,29 +302,24 @@ def estimator() -> list[Expectation]:
         _estimates("(0, 5.54), on the left edge, takes 27.7 s", 0.0, MIDDLE, MIDDLE / SPEED),
         _estimates("(5.54, 0), on the lower edge, takes 27.7 s", MIDDLE, 0.0, MIDDLE / SPEED),
         _estimates("(11.05, 11.05), in the corner, takes 38.9 s", 11.05, 11.05, 2**0.5 * (11.05 - MIDDLE) / SPEED),
-        *(_declines(x, y) for x, y in ((-0.5, 5.0), (11.5, 5.0), (5.0, -0.5), (5.0, 11.5))),
+        *(
+            _estimates(f"({x:g}, {y:g}) is outside: success is False, time_taken 0".replace("-", "−"), x, y)
+            for x, y in ((-0.5, 5.0), (11.5, 5.0), (5.0, -0.5), (5.0, 11.5))
+        ),
         no_errors(),
     ]
 
 
-def _estimates(words: str, x: float, y: float, seconds: float) -> Expectation:
+def _estimates(words: str, x: float, y: float, seconds: float | None = None) -> Expectation:
+    """The service says how long the way to a goal takes, or refuses a goal for which no time is given here."""
+
+    def right(response: NavigateTo.Response) -> bool:
+        if seconds is None:
+            return not response.success and response.time_taken == 0.0
+        return response.success and abs(response.time_taken - seconds) < 0.05
+
     step = "How long is the straight way from the middle, and which goals are in the world?"
-    return answers(
-        "/estimate",
-        NAVIGATE_TYPE,
-        {"x": x, "y": y},
-        lambda response: response.success and abs(response.time_taken - seconds) < 0.05,
-        words,
-        hinted(step, "Open the hints under the exercise."),
-    )
-
-
-def _declines(x: float, y: float) -> Expectation:
-    return answers(
-        "/estimate",
-        NAVIGATE_TYPE,
-        {"x": x, "y": y},
-        lambda response: not response.success and response.time_taken == 0.0,
-        f"({x:g}, {y:g}) is outside: success is False, time_taken 0".replace("-", "−"),
-        hinted("A goal is inside if both x and y are from 0 to 11.09.", 2),
-    )
+    advice = hinted(step, "Open the hints under the exercise.")
+    if seconds is None:
+        advice = hinted("A goal is inside if both x and y are from 0 to 11.09.", 2)
+    return answers("/estimate", NAVIGATE_TYPE, {"x": x, "y": y}, right, words, advice)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import reduce, wraps
 from operator import attrgetter
@@ -25,7 +25,7 @@ from ...ros.sim.interrupts import work_done
 from ..graph import node_names, of_node, others, owner, servers
 from ..recording import NANOSECONDS
 from ..words import listed, number
-from .results import ENDLESS, CannotLook, OutOfTime, Stopped, in_words, never_returned, unreturned
+from .results import ENDLESS, CannotLook, Stopped, in_words, never_returned, unreturned
 
 if TYPE_CHECKING:
     from rclpy.publisher import Publisher
@@ -137,7 +137,8 @@ class Probe:
         """Why the learner's code was stopped; "" if it was not."""
         self._origin = target.node.get_clock().now().nanoseconds - round(target.now * NANOSECONDS)
         self._memory: dict[Hashable, Any] = {}
-        self._clean_up: list[Callable[[], object]] = []
+        self.clean_up = ExitStack()
+        """Is closed when the probe is over: to take away what it has made, and put back what it has changed."""
         self._errors_before = [error for _, error in target.errors]
         self.nodes_before: Counter[str] = Counter()
         self.log: list[tuple[int, str, str]] = []
@@ -158,13 +159,8 @@ class Probe:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.target.limit_work(None)
-        for each in reversed(self._clean_up):
-            with suppress(Exception):  # what is gone already needs no cleaning
-                each()
-
-    def at_the_end(self, action: Callable[[], object]) -> None:
-        """Have `action` called when the probe is over: to put back what it has changed."""
-        self._clean_up.append(action)
+        with suppress(Exception):  # what is gone already needs no cleaning
+            self.clean_up.close()
 
     def once(self, key: Hashable, look: Callable[[], T]) -> T:
         """What `look()` gives, or the CannotLook that it raises: the first time it is done, from then on remembered."""
@@ -186,7 +182,7 @@ class Probe:
         return self.target.now
 
     def wait(self, seconds: float) -> None:
-        """Let robot time pass. Raises OutOfTime where the check has no more of it."""
+        """Let robot time pass. Raises CannotLook where the check has no more of it."""
         end = self.now + seconds
         while self.now < end - 1e-9:
             self._step(min(PIECE, end - self.now))
@@ -200,7 +196,7 @@ class Probe:
 
     def _step(self, seconds: float) -> None:
         if self.now + seconds > self._until + 1e-9:
-            raise OutOfTime(f"the {self._limit:g} s of robot time that this check may take are over")
+            raise CannotLook(f"the {self._limit:g} s of robot time that this check may take are over")
         if not self.stopped and work_done() - self._work_begin > WORK + SLACK:
             self.stopped = (
                 f"{number(self.now - self.began, 1)} s of robot time took {WORK:g} s of computing: is a timer's period "
@@ -302,7 +298,7 @@ class Probe:
         """Call `callback` with each message until the probe is over; best effort, which hears every publisher."""
         quality = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
         subscription = self.node.create_subscription(message_class, topic, callback, quality)
-        self._clean_up.append(lambda: self.node.destroy_subscription(subscription))
+        self.clean_up.callback(self.node.destroy_subscription, subscription)
 
     def errors(self) -> list[Exception]:
         """What the learner's code has raised since the probe began: in a callback of a cell's node, or in a program."""
@@ -331,7 +327,7 @@ class Probe:
 
     def _publisher(self, topic: str, type_name: str) -> Publisher:
         publisher = self.node.create_publisher(interface(type_name), topic, 10)
-        self._clean_up.append(lambda: self.node.destroy_publisher(publisher))
+        self.clean_up.callback(self.node.destroy_publisher, publisher)
         self.wait(0.05)  # so that the subscriptions have found it
         return publisher
 
@@ -374,5 +370,5 @@ class Probe:
             raise CannotLook(f"no node offers the service {service}{self.like(service, self.services())}")
         _insist_on(type_name, f"{service} is offered", ends)
         client = self.node.create_client(interface(type_name), service)
-        self._clean_up.append(lambda: self.node.destroy_client(client))
+        self.clean_up.callback(self.node.destroy_client, client)
         return client

@@ -21,15 +21,10 @@ if TYPE_CHECKING:
     from ...ros.sim.strand import Strand
 
 GOOD, BAD, OPEN, STOPPED = "✓", "✗", "–", "■"
-IN_WORDS = {GOOD: "yes", BAD: "no", OPEN: "not looked at", STOPPED: "stopped"}
 
 
 class CannotLook(Exception):
     """This cannot be looked at; the message completes "not looked at, because …"."""
-
-
-class OutOfTime(CannotLook):
-    """The robot time of the check is over."""
 
 
 class Stopped(CannotLook):
@@ -165,17 +160,16 @@ class CheckResult:
         time = f"{number(self.seconds, 1)} s of robot time went by." if self.seconds else "No robot time went by."
         return title, [line for line in closing if line], time
 
-    def _groups(self) -> Iterator[list[Row]]:
+    def _groups(self) -> list[list[Row]]:
         """The rows in their order; those that were not looked at for the same reason stand together, at the first."""
+        groups: dict[object, list[Row]] = {}
         for index, row in enumerate(self.rows):
-            if row.mark != OPEN:
-                yield [row]
-            elif all(row.seen != before.seen for before in self.rows[:index]):
-                yield [each for each in self.rows[index:] if (each.mark, each.seen) == (OPEN, row.seen)]
+            groups.setdefault(row.seen if row.mark == OPEN else index, []).append(row)
+        return list(groups.values())
 
     def __repr__(self) -> str:
         title, closing, time = self._parts()
-        groups = list(self._groups())
+        groups = self._groups()
         wide = min(max((len(group[0].expected) for group in groups if len(group) == 1), default=0), WIDEST)
         lines = _wrapped(f"{self.mark} {title}", "", "  ")
         for row, *more in groups:
@@ -197,10 +191,11 @@ class CheckResult:
 
     def _repr_html_(self) -> str:
         title, closing, time = self._parts()
+        _, colour, name = _LOOKS[self.mark]
         rows = "".join(self._html_row(row, more) for row, *more in self._groups())
         below = "".join(f'<p style="margin: 0.4em 0">{html.escape(line)}</p>' for line in closing)
         return (
-            f'<div style="border-left: 4px solid {_EDGES[self.mark]}; padding-left: 0.8em">'
+            f'<div style="border-left: 4px solid var(--jp-{name}-color1, {colour}); padding-left: 0.8em">'
             f'<p style="margin: 0.4em 0">{_html_mark(self.mark)} <strong>{html.escape(title)}</strong></p>'
             f'<table style="border-collapse: collapse; max-width: 60rem; color: inherit; font-size: inherit">'
             f"<thead><tr><td></td><th {_CELL}>expected</th><th {_CELL}>seen</th></tr></thead>"
@@ -227,12 +222,14 @@ class CheckResult:
 
 
 _CELL = 'style="text-align: left; vertical-align: top; white-space: normal; padding: 0.2em 1em 0.2em 0"'
-_COLOURS = {GOOD: "#1a7f37", BAD: "#cf222e", OPEN: "#6e7781", STOPPED: "#9a6700"}
-"""White on each of these has a contrast of 4.5 : 1 or more, and each stands out from a light and from a dark page."""
-_EDGES = {
-    mark: f"var(--jp-{name}-color1, {_COLOURS[mark]})"
-    for mark, name in ((GOOD, "success"), (BAD, "error"), (STOPPED, "warn"))
+_LOOKS = {
+    GOOD: ("yes", "#1a7f37", "success"),
+    BAD: ("no", "#cf222e", "error"),
+    OPEN: ("not looked at", "#6e7781", ""),
+    STOPPED: ("stopped", "#9a6700", "warn"),
 }
+"""Each mark in words, its colour, and what JupyterLab calls that. White on each colour has a contrast of 4.5 : 1 or more, and
+each stands out from a light and from a dark page."""
 
 
 def _folded(row: Row, more: list[Row]) -> str:
@@ -240,11 +237,12 @@ def _folded(row: Row, more: list[Row]) -> str:
 
 
 def _html_mark(mark: str) -> str:
+    words, colour, _ = _LOOKS[mark]
     style = (
         f"display: inline-block; width: 1.5em; line-height: 1.5em; border-radius: 0.4em; text-align: center; "
-        f"color: #fff; background: {_COLOURS[mark]}"
+        f"color: #fff; background: {colour}"
     )
-    return f'<strong role="img" aria-label="{IN_WORDS[mark]}" style="{style}">{mark}</strong>'
+    return f'<strong role="img" aria-label="{words}" style="{style}">{mark}</strong>'
 
 
 def _wrapped(text: str, first: str, other: str) -> list[str]:
@@ -304,23 +302,15 @@ def _line(frame: FrameType, number: int) -> str:
 
 def never_returned(error: BaseException) -> str:
     """Which callback went on without end, and in which line it was stopped."""
-    calls = [(each.tb_frame, each.tb_lineno) for each in errors.traceback_entries(error.__traceback__)]
+    calls = list(traceback.walk_tb(error.__traceback__))
     inside = _in_a_callback(calls) or _learners(calls)
     return _where(inside, "stopped") if inside else "something that was called has not returned, and was stopped"
 
 
 def unreturned(strands: list[Strand]) -> list[str]:
     """The callbacks that parked strands stand in, each as "on_request has not returned: it is in line 7 (`…`)"."""
-    found = []
-    for strand in strands:
-        calls: list[Call] = []
-        frame = strand.frame
-        while frame is not None:
-            calls.insert(0, (frame, frame.f_lineno))
-            frame = frame.f_back
-        if inside := _in_a_callback(calls):
-            found.append(_where(inside, "it is"))
-    return found
+    stacks = [list(traceback.walk_stack(each.frame))[::-1] for each in strands if each.frame is not None]
+    return [_where(inside, "it is") for inside in map(_in_a_callback, stacks) if inside]
 
 
 def _where(calls: list[Call], words: str) -> str:
