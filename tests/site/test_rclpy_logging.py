@@ -397,13 +397,19 @@ def test_throttling_may_go_by_a_clock_of_ones_own(run: Run, capsys: Capture) -> 
     def program(found: list[Any]) -> None:
         logger, clock = demo_logger(), ROSClock()
         clock._set_ros_time_is_active(True)
+        logger.info("never throttled", throttle_duration_sec=0.0, throttle_time_source_type=clock)
         for second in (1.0, 1.4, 1.5, 1.9, 2.1):
             clock.set_ros_time_override(Time(seconds=second))
             time.sleep(10.0)
             logger.info(f"at {second}", throttle_duration_sec=0.5, throttle_time_source_type=clock)
 
     run(program, seconds=100.0)
-    assert [line.rpartition(": ")[2] for line in capsys.readouterr().err.splitlines()] == ["at 1.0", "at 1.5", "at 2.1"]
+    assert [line.rpartition(": ")[2] for line in capsys.readouterr().err.splitlines()] == [
+        "never throttled",
+        "at 1.0",
+        "at 1.5",
+        "at 2.1",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -418,7 +424,7 @@ def test_throttling_may_go_by_a_clock_of_ones_own(run: Run, capsys: Capture) -> 
         (
             {"throttle_time_source_type": object},
             TypeError,
-            "throttle_duration_sec is a number of seconds, got 0",
+            "throttle_duration_sec is a number of seconds, got None",
         ),
         (
             {"throttle_time_source_type": "RCUTILS_STEADY_TIME", "throttle_duration_sec": 1.0},

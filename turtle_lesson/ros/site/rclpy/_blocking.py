@@ -81,16 +81,16 @@ def wait_until(
 ) -> bool:
     """Look every so often (ns) whether a condition holds; False if it does not within the timeout (s), or the context ends.
 
-    None waits forever. `what` is what the running thread is said to do meanwhile.
+    None waits forever. As rclpy's own loops do, it waits for whole steps. `what` is what the running thread is said to do.
     """
     strand = running_strand()
     assert strand is not None
     strand.activity, simulation = what, strand.simulation
-    deadline = NEVER if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
+    deadline = NEVER if timeout_sec is None else simulation.now + int(min(timeout_sec * NANOSECONDS, NEVER))
     while not condition():
         if not context.ok() or simulation.now >= deadline:
             return False
-        simulation.sleep_until(min(simulation.now + every, deadline))
+        simulation.sleep_until(simulation.now + every)
     return True
 
 

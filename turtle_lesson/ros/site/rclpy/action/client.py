@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,6 @@ from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
 from turtle_lesson.ros.sim.errors import NeverWakes
-from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 
 from .._blocking import drives_the_simulation, wait_until
@@ -91,12 +89,9 @@ class ActionClient(ActionEndpoint):
         return has_topics and all(client._servers() for client in self._clients)
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Wait until a node offers the action; False if none does within the timeout (s). None waits forever.
-
-        As the real one it waits for whole quarters of a second.
-        """
-        whole = None if timeout_sec is None else math.ceil(timeout_sec * NANOSECONDS / POLL) * POLL / NANOSECONDS
-        return wait_until(self.server_is_ready, whole, POLL, self._node.context, f"wait_for_server for {self._name}")
+        """Wait until a node offers the action; False if none does within the timeout (s). None waits forever."""
+        what = f"wait_for_server for {self._name}"
+        return wait_until(self.server_is_ready, timeout_sec, POLL, self._node.context, what)
 
     def send_goal_async(
         self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: Any = None

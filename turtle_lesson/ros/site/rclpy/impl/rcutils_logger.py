@@ -152,8 +152,8 @@ def _filters_of(options: dict[str, Any]) -> dict[str, Any]:
             raise TypeError(f'parameter "{name}" is not one of the recognized logging options "{list(FILTERS)}"{hint}')
     found = {name: options[name] for name in FILTERS if options.get(name)}
     pause, clock = found.get("throttle_duration_sec", 0), found.get("throttle_time_source_type")
-    if not isinstance(pause, (int, float)) or (clock and not pause):
-        raise TypeError(f"throttle_duration_sec is a number of seconds, got {pause!r}")
+    if not isinstance(pause, (int, float)) or (clock and "throttle_duration_sec" not in options):
+        raise TypeError(f"throttle_duration_sec is a number of seconds, got {options.get('throttle_duration_sec')!r}")
     if clock and not hasattr(clock, "_now"):
         raise ValueError(
             f'Received throttle_time_source_type of "{clock}" is not a clock instance: hand over node.get_clock()'
