@@ -95,6 +95,21 @@ def test_a_clock_that_jumps_far_ahead_makes_a_timer_tick_once_and_keeps_its_phas
     assert found == [14.5, 15.0]
 
 
+def test_in_the_trace_a_timer_on_the_clock_topic_is_ready_when_it_ticks(run: Run, world: World) -> None:
+    world.keep_trace()
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = follower()
+        node.create_timer(0.5, lambda: None)
+        rclpy.spin(node)
+
+    run(clock_at((1.0, 10.0), (2.0, 10.6), (3.0, 11.2)), program)
+    assert world.trace is not None
+    ticks = next(each.ended for each in world.trace.callbacks if each.kind == "timer")
+    assert [ready for ready, _, _ in ticks] == [began for _, began, _ in ticks] and len(ticks) == 3
+
+
 CLOCKED = (5.5, 6.0, 6.5, 7.0, 10.0, 10.5, 11.0, 11.0, 12.25, 12.5, 20.0, 20.0, 20.2)
 CLOCKED += (4.0, 4.5, 5.0, 5.2, 6.0, 4.9, 5.9, 6.0, 6.0, 6.3, 50.0)
 """What /clock says, 0.1 s apart, after it has said 5.0."""

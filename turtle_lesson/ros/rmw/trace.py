@@ -127,7 +127,7 @@ class Callback:
         period: a timer's period when it was made, in ns; otherwise 0.
         process: the number of the process that it runs in.
         awaits: whether it is an `async def`, which leaves its thread to others while it awaits.
-        arrivals: when each message or request came that waits now (ns); None for a timer.
+        arrivals: when each message or request came that waits now (ns); None for a timer in the simulation's time.
         open: of the runs that have not ended, when they were ready and began (ns).
     """
 

@@ -45,6 +45,8 @@ def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
         arrivals = deque([trace.simulation.now] * len(end.queue), maxlen=getattr(end.queue, "maxlen", None))
         end.arrivals = entity._traced.arrivals = arrivals
         getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
+    elif entity._time is not trace.simulation:
+        entity._traced.arrivals = deque()  # a timer whose ticks are in another time is ready when it begins
 
 
 def begin_task(entity: Any, traced: Callback, now: int) -> tuple[int, int]:

@@ -36,7 +36,13 @@ class Clock:
 
     _clock_type: ClockType
     _origin: int
+    """What it showed when the world began (ns)."""
     _simulation: Simulation
+    _time: Simulation | _Followed
+    """What it goes by: the simulation, or what is heard on /clock."""
+    _followed: _Followed
+    _source: TimeSource | None
+    _timers: list[Timer]
     _jump_handles: list[JumpHandle]
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
@@ -45,8 +51,9 @@ class Clock:
         clock = super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
         clock._clock_type = clock_type
         clock._origin = 0 if clock_type == ClockType.STEADY_TIME else EPOCH
-        clock._simulation = current_world().sim
-        clock._jump_handles = []
+        clock._time = clock._simulation = current_world().sim
+        clock._followed, clock._source = _Followed(), None
+        clock._timers, clock._jump_handles = [], []
         return clock
 
     @property
@@ -63,16 +70,13 @@ class Clock:
         return f"Clock(clock_type={self._clock_type.name})"
 
     def now(self) -> Time:
-        """The time now."""
-        return Time(nanoseconds=self._origin + self._simulation.read_clock(), clock_type=self._clock_type)
+        """The time now. One that follows /clock stands still between two messages, and shows 0 before the first."""
+        self._simulation.read_clock()
+        return Time(nanoseconds=self._origin + self._time.now, clock_type=self._clock_type)
 
     def _now(self) -> int:
         """The time now (ns); looking at it costs no virtual time."""
-        return self._origin + self._simulation.now
-
-    def _when(self, time: int) -> int | None:
-        """When, in the simulation's time, this clock shows a time (ns); None if that cannot be known."""
-        return time - self._origin
+        return self._origin + self._time.now
 
     def create_jump_callback(
         self,
@@ -110,11 +114,13 @@ class Clock:
 
         every_jump = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
         with self.create_jump_callback(every_jump, post_callback=on_jump):
-            self._sleep(wake_up, until)
+            if self._time is self._simulation:
+                wake_up.wait(until.nanoseconds - self._origin)
+            elif self._now() < until.nanoseconds:
+                if self._source is not None:
+                    self._source.check_it_may_hear(wake_up.strand)
+                wake_up.wait(None)
         return context.ok() and not changed and self._now() >= until.nanoseconds
-
-    def _sleep(self, wake_up: WakeUp, until: Time) -> None:
-        wake_up.wait(self._when(until.nanoseconds))
 
     @drives_the_simulation
     def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
@@ -128,66 +134,37 @@ class Clock:
 
 
 class _Followed:
-    """The time that was last heard of on /clock, in ns. A timer looks at its `now` in place of the simulation's."""
+    """The time that was last heard of on /clock, in the place of a simulation.
 
-    def __init__(self) -> None:
-        self.now = 0
+    Attributes:
+        now: in ns, counted as the simulation counts them; ROS time, which is that since 1970, is 0 before the first message.
+    """
+
+    now = -EPOCH
 
 
 class ROSClock(Clock):
     """The clock of nodes."""
 
-    _followed: _Followed
-    _is_active: bool
-    _timers: list[Timer]
-    _source: TimeSource | None
-
     def __new__(cls) -> ROSClock:
         clock: Any = super().__new__(Clock, clock_type=ClockType.ROS_TIME)
         return clock
 
-    def __init__(self, **_: Any) -> None:
-        self._followed = _Followed()
-        self._is_active = False
-        self._timers = []
-        self._source = None
-
     @property
     def ros_time_is_active(self) -> bool:
         """Whether a `/clock` topic rules this clock."""
-        return self._is_active
-
-    def now(self) -> Time:
-        """The time now. Under the rule of /clock it stands still between two messages, and is 0 before the first."""
-        if not self._is_active:
-            return super().now()
-        self._simulation.read_clock()
-        return Time(nanoseconds=self._followed.now, clock_type=self._clock_type)
-
-    def _now(self) -> int:
-        return self._followed.now if self._is_active else super()._now()
-
-    def _when(self, time: int) -> int | None:
-        return None if self._is_active and self._followed.now < time else super()._when(time)
-
-    def _sleep(self, wake_up: WakeUp, until: Time) -> None:
-        deadline = self._when(until.nanoseconds)
-        if self._is_active and self._now() >= until.nanoseconds:
-            return
-        if deadline is None and self._source is not None:
-            self._source.check_it_may_hear(wake_up.strand)
-        wake_up.wait(deadline)
+        return self._time is self._followed
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
         """Begin or end to follow /clock; a TimeSource does it."""
-        if self._is_active == enabled:
+        if self.ros_time_is_active == enabled:
             return
-        before = self._now()
+        before = self._time.now
 
         def change() -> None:
-            self._is_active = enabled
+            self._time = self._followed if enabled else self._simulation
             for timer in self._timers:
-                timer._follow(self._followed if enabled else None, before)
+                timer._follow(self._time, before)
 
         what = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
         self._jump(TimeJump(what, Duration()), change)
@@ -196,17 +173,18 @@ class ROSClock(Clock):
         """Set the time that this clock shows while it is ruled by /clock. Raises TypeError for what is no Time."""
         if not isinstance(time, Time):
             raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
-        if not self._is_active:
-            self._followed.now = time.nanoseconds
-            return
+        now = time.nanoseconds - EPOCH
 
         def change() -> None:
-            self._followed.now = time.nanoseconds
+            self._followed.now = now
             for timer in self._timers:
                 timer._jumped()
 
-        delta = Duration(nanoseconds=time.nanoseconds - self._followed.now)
-        self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), change)
+        if self.ros_time_is_active:
+            delta = Duration(nanoseconds=now - self._followed.now)
+            self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), change)
+        else:
+            self._followed.now = now
 
     def _jump(self, jump: TimeJump, change: Callable[[], None]) -> None:
         """Carry out the change that a jump is; call before and after it what wants to know of such jumps."""

@@ -7,11 +7,12 @@ clock follows /clock is looked at whenever that clock is set.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.sim.errors import NeverWakes
-from turtle_lesson.ros.sim.simulation import EPOCH
+from turtle_lesson.ros.sim.simulation import EPOCH, NEVER
 from turtle_lesson.ros.sim.strand import running_strand
 
 from ._blocking import WakeUp, drives_the_simulation, somebody_spins
@@ -19,18 +20,18 @@ from ._deadlock import is_notebook
 from ._entity import TIMER, Entity
 from ._hints import shown
 from .callback_groups import CallbackGroup
-from .clock import ROSClock
 from .constants import S_TO_NS
 from .exceptions import InvalidHandle, RCLError, ROSInterruptException
 
 if TYPE_CHECKING:
+    from turtle_lesson.ros.sim.simulation import Simulation
     from turtle_lesson.ros.sim.strand import Strand
 
-    from .clock import Clock
+    from .clock import Clock, _Followed
     from .context import Context
 
 SHORTEST = 47_000
-NOT_BY_THE_SIMULATION = -1
+NOT_BY_THE_SIMULATION = -NEVER
 
 
 def period_ns(seconds: Any) -> int:
@@ -65,14 +66,12 @@ class Timer(Entity):
             )
         self._clock = clock
         self._simulation = clock._simulation
-        self._time: Any = clock._simulation  # what shows the time (ns) as its `now`: this, or what follows /clock
+        self._time = clock._time
         self._period = int(timer_period_ns)
         self._canceled = not autostart
-        self._armed: int | None = None  # when the simulation calls next, which may be too early (ns)
-        if isinstance(clock, ROSClock):
-            clock._timers.append(self)
-            if clock.ros_time_is_active:
-                self._time, self._armed = clock._followed, NOT_BY_THE_SIMULATION
+        # When the simulation calls next, which may be too early (ns).
+        self._armed: int | None = None if self._time is self._simulation else NOT_BY_THE_SIMULATION
+        clock._timers.append(self)
         self._last = self._time.now
         self._next = self._last + self._period
         if autostart:
@@ -158,25 +157,23 @@ class Timer(Entity):
 
     # -- in the time that is heard on /clock -------------------------------------------------------------------------
 
-    def _follow(self, followed: Any, before: int) -> None:
-        """The clock begins to follow /clock, or (None) ends it; `before` is what it showed until now (ns).
+    def _follow(self, time: Simulation | _Followed, before: int) -> None:
+        """The clock begins or ends to follow /clock: it goes by `time` from now on, and showed `before` (ns) until now.
 
-        What is left of the period is waited for in the new time, if both times are known. These are rcl's rules and
-        figures, in ns since 1970.
+        What is left of the period is waited for in the new time, if both times are known: 0 in ROS time is not. These are
+        rcl's rules.
         """
-        shift = 0 if followed is None else EPOCH
-        last, due = self._last + shift, self._next + shift
-        now = EPOCH + self._simulation.now if followed is None else followed.now
-        left = due - before
-        if now and before and left:
-            last, due = now - left, now - left + self._period
-        if followed is None:
-            self._time, self._armed = self._simulation, None
-            self._last, self._next = last - EPOCH, max(due - EPOCH, self._simulation.now)
+        now, left = time.now, self._next - before
+        self._time = time
+        if self._traced is not None:
+            self._traced.arrivals = None if time is self._simulation else deque()
+        if left and -EPOCH not in (now, before):
+            self._last, self._next = now - left, now - left + self._period
+        if time is self._simulation:
+            self._armed, self._next = None, max(self._next, now)
             self._arm()
         else:
-            self._time, self._armed = followed, NOT_BY_THE_SIMULATION
-            self._last, self._next = last, due
+            self._armed = NOT_BY_THE_SIMULATION
             if self._has_work():
                 self._signal()
 
@@ -192,7 +189,7 @@ class Timer(Entity):
     def destroy(self) -> None:
         """Never tick again."""
         self._canceled = True
-        if isinstance(self._clock, ROSClock) and self in self._clock._timers:
+        if self in self._clock._timers:
             self._clock._timers.remove(self)
         super().destroy()
 
