@@ -190,12 +190,12 @@ class ROSClock(Clock):
         """Carry out the change that a jump is; call before and after it what wants to know of such jumps."""
         handles = [handle for handle in self._jump_handles if handle.wants(jump)]
         for handle in handles:
-            if handle.before is not None:
-                handle.before()
+            if handle.pre_callback is not None:
+                handle.pre_callback()
         change()
         for handle in handles:
-            if handle.after is not None:
-                handle.after(jump)
+            if handle.post_callback is not None:
+                handle.post_callback(jump)
 
 
 # -- jumps of a clock (which callbacks are called: rcl's time.c) ------------------------------------------------------
@@ -238,31 +238,25 @@ class TimeJump:
     delta: Duration
 
 
+@dataclass(kw_only=True, eq=False)
 class JumpHandle:
     """Made by `Clock.create_jump_callback`. As a context manager it ends with its block."""
 
-    def __init__(
-        self,
-        *,
-        clock: Clock,
-        threshold: JumpThreshold,
-        pre_callback: Callable[[], object] | None,
-        post_callback: Callable[[TimeJump], object] | None,
-    ) -> None:
-        given = [callback for callback in (pre_callback, post_callback) if callback is not None]
+    clock: Clock
+    threshold: JumpThreshold
+    pre_callback: Callable[[], object] | None
+    post_callback: Callable[[TimeJump], object] | None
+
+    def __post_init__(self) -> None:
+        given = [callback for callback in (self.pre_callback, self.post_callback) if callback is not None]
         if not given or not all(map(callable, given)):
             raise ValueError("One of pre_callback or post_callback must be callable, and so must the other if given")
-        self._clock: Clock | None = clock
-        self._threshold = threshold
-        self.before = pre_callback
-        self.after = post_callback
-        clock._jump_handles.append(self)
+        self.clock._jump_handles.append(self)
 
     def unregister(self) -> None:
         """No longer tell of jumps."""
-        if self._clock is not None:
-            self._clock._jump_handles.remove(self)
-            self._clock = None
+        if self in self.clock._jump_handles:
+            self.clock._jump_handles.remove(self)
 
     def __enter__(self) -> JumpHandle:
         return self
@@ -272,7 +266,7 @@ class JumpHandle:
 
     def wants(self, jump: TimeJump) -> bool:
         """Whether this is one of the jumps to know of."""
-        wish, delta = self._threshold, jump.delta
+        wish, delta = self.threshold, jump.delta
         if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
             return wish.on_clock_change
         if wish.min_backward is not None and delta <= wish.min_backward:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, Any
 
@@ -13,23 +14,30 @@ from .duration import Duration, Infinite
 from .exceptions import RCLError
 
 
-class QoSPolicyEnum(IntEnum):
-    """Base class: what all policies can do."""
+class _ShortKeys:
+    """Base class of policies and presets: their names as the command line has them."""
+
+    __members__: Mapping[str, Any]
+    name: str
 
     @property
     def short_key(self) -> str:
-        """The policy's name as the command line has it."""
+        """The name as the command line has it."""
         return self.name.lower()
 
     @classmethod
     def short_keys(cls) -> list[str]:
         """All names as the command line has them."""
-        return [policy.name.lower() for policy in cls]
+        return [name.lower() for name in cls.__members__]
 
     @classmethod
-    def get_from_short_key(cls, name: str) -> int:
-        """The number of the policy of a name, in whatever case."""
-        return cls[name.upper()].value
+    def get_from_short_key(cls, name: str) -> Any:
+        """The number of the policy, or the preset, of a name in whatever case."""
+        return cls.__members__[name.upper()].value
+
+
+class QoSPolicyEnum(_ShortKeys, IntEnum):
+    """Base class of the policies."""
 
 
 class _OldName:
@@ -129,35 +137,24 @@ _MEANT: dict[str, QoSPolicyEnum] = {
 }
 """What `system default` stands for."""
 
-_FIELDS: dict[str, tuple[type, Any]] = {
-    "history": (HistoryPolicy, HistoryPolicy.KEEP_LAST),
-    "depth": (int, 10),
-    "reliability": (ReliabilityPolicy, ReliabilityPolicy.RELIABLE),
-    "durability": (DurabilityPolicy, DurabilityPolicy.VOLATILE),
-    "lifespan": (Duration, Duration()),
-    "deadline": (Duration, Duration()),
-    "liveliness": (LivelinessPolicy, LivelinessPolicy.SYSTEM_DEFAULT),
-    "liveliness_lease_duration": (Duration, Duration()),
-    "avoid_ros_namespace_conventions": (bool, False),
-}
-
 
 class QoSProfile:
     """The policies of a publisher, subscription, service or client, as keyword arguments and attributes."""
 
-    history: HistoryPolicy
-    depth: int
-    reliability: ReliabilityPolicy
-    durability: DurabilityPolicy
-    lifespan: Duration
-    deadline: Duration
-    liveliness: LivelinessPolicy
-    liveliness_lease_duration: Duration
-    avoid_ros_namespace_conventions: bool
+    history: HistoryPolicy = HistoryPolicy.KEEP_LAST
+    depth: int = 10
+    reliability: ReliabilityPolicy = ReliabilityPolicy.RELIABLE
+    durability: DurabilityPolicy = DurabilityPolicy.VOLATILE
+    lifespan: Duration = Duration()
+    deadline: Duration = Duration()
+    liveliness: LivelinessPolicy = LivelinessPolicy.SYSTEM_DEFAULT
+    liveliness_lease_duration: Duration = Duration()
+    avoid_ros_namespace_conventions: bool = False
 
     def __init__(self, **policies: Any) -> None:
-        unknown = set(policies) - set(_FIELDS)
-        hint = "".join(did_you_mean(name, _FIELDS) for name in sorted(unknown))
+        known = QoSProfile.__annotations__
+        unknown = set(policies) - set(known)
+        hint = "".join(did_you_mean(name, known) for name in sorted(unknown))
         assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}{hint}"
         if "history" not in policies:
             if "depth" not in policies:
@@ -165,13 +162,13 @@ class QoSProfile:
             policies["history"] = HistoryPolicy.KEEP_LAST
         if policies["history"] == HistoryPolicy.KEEP_LAST and "depth" not in policies:
             raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
-        for name, (_, default) in _FIELDS.items():
-            setattr(self, name, policies.get(name, default))
+        for name in known:
+            setattr(self, name, policies.get(name, getattr(QoSProfile, name)))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name not in _FIELDS:
-            raise AttributeError(f"QoSProfile has no policy {name!r}; it has {', '.join(_FIELDS)}")
-        kind = _FIELDS[name][0]
+        if name not in QoSProfile.__annotations__:
+            raise AttributeError(f"QoSProfile has no policy {name!r}; it has {', '.join(QoSProfile.__annotations__)}")
+        kind = type(getattr(QoSProfile, name))
         if issubclass(kind, QoSPolicyEnum) and isinstance(value, int):
             value = kind(value)
         if not isinstance(value, kind):
@@ -184,14 +181,12 @@ class QoSProfile:
         if name == "depth" and isinstance(value, int):
             if value < 0:
                 raise ValueError("history depth must be greater than or equal to zero")
-            if value == 0 and getattr(self, "history", None) == HistoryPolicy.KEEP_LAST and "depth" in vars(self):
+            if value == 0 and self.history == HistoryPolicy.KEEP_LAST and "depth" in vars(self):
                 warnings.warn(NO_DEPTH, stacklevel=3)
         object.__setattr__(self, name, value)
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, QoSProfile):
-            return False
-        return all(getattr(self, name) == getattr(other, name) for name in _FIELDS)
+        return isinstance(other, QoSProfile) and vars(self) == vars(other)
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -201,7 +196,7 @@ class QoSProfile:
                 return f"{value.nanoseconds} nanoseconds"
             return int(value) if isinstance(value, QoSPolicyEnum) else value
 
-        return f"QoSProfile({', '.join(f'{name}={shown(getattr(self, name))}' for name in _FIELDS)})"
+        return f"QoSProfile({', '.join(f'{name}={shown(value)}' for name, value in vars(self).items())})"
 
     __str__ = __repr__
 
@@ -289,7 +284,7 @@ qos_profile_rosout_default = QoSProfile(
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-class QoSPresetProfiles(Enum):
+class QoSPresetProfiles(_ShortKeys, Enum):
     """The presets by name."""
 
     UNKNOWN = qos_profile_unknown
@@ -301,16 +296,6 @@ class QoSPresetProfiles(Enum):
     PARAMETER_EVENTS = qos_profile_parameter_events
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
     ROSOUT_DEFAULT = qos_profile_rosout_default
-
-    @classmethod
-    def short_keys(cls) -> list[str]:
-        """All names as the command line has them."""
-        return [preset.name.lower() for preset in cls]
-
-    @classmethod
-    def get_from_short_key(cls, name: str) -> QoSProfile:
-        """The preset of a name."""
-        return cls[name.upper()].value
 
 
 if not TYPE_CHECKING:
