@@ -1,8 +1,4 @@
-"""How callbacks get into the world's trace: when they were ready, began and ended.
-
-Those that run at once, as nearly all do, note themselves (`Entity._run`): a call for each would cost more than all that
-is noted.
-"""
+"""How callbacks get into the world's trace. When each was ready, began and ended is noted where it runs."""
 
 from __future__ import annotations
 
@@ -17,10 +13,7 @@ from .time_source import TimeSource
 from .timer import Rate
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.sim.simulation import Simulation
-
     from .node import Node
-    from .task import Task
 
 KINDS = {TIMER: "timer", SUBSCRIPTION: "subscription", SERVICE: "service"}
 
@@ -47,26 +40,6 @@ def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
         getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
     elif entity._time is not trace.simulation:
         entity._traced.arrivals = deque()  # a timer whose ticks are in another time is ready when it begins
-
-
-def begin_task(entity: Any, traced: Callback, now: int) -> tuple[int, int]:
-    """Note that a callback begins as a task: when it was ready, and `now` (ns)."""
-    arrivals = traced.arrivals
-    begun = (entity._next if arrivals is None else arrivals.popleft() if arrivals else now, now)
-    traced.open.append(begun)
-    return begun
-
-
-def note_end(task: Task, traced: Callback, begun: tuple[int, int], simulation: Simulation) -> None:
-    """Have it noted when a task is over that is a callback."""
-    free = task._finally
-
-    def end() -> None:
-        traced.end_run(begun, simulation.now)
-        if free is not None:
-            free()
-
-    task._finally = end
 
 
 def name_of(function: Callable[..., Any] | None) -> str:

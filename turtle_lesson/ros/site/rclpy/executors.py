@@ -31,7 +31,7 @@ from ._deadlock import executor_of_worker, is_notebook, others_may_act, why_neve
 from ._entity import NO_TURN, WAITABLE, Entity
 from ._hints import explain_call, no_node
 from ._state import RclpyState
-from ._tracing import begin_task, note_end, trace_entity
+from ._tracing import trace_entity
 from .context import Context
 from .exceptions import not_valid, refuse_destroyed
 from .task import Future, Task, at_once
@@ -274,18 +274,21 @@ class Executor:
             waiting._signal()
 
     def _as_task(self, entity: Any) -> Task:
-        traced = entity._traced
-        begun = None if traced is None else begin_task(entity, traced, self._simulation.now)
+        traced, begun = entity._traced, None
+        if traced is not None:  # as in `Entity._run`
+            began, arrivals = self._simulation.now, traced.arrivals
+            begun = (entity._next if arrivals is None else arrivals.popleft() if arrivals else began, began)
+            traced.open.append(begun)
         task = self._number(Task(_call_and_await, (entity, entity._take()), executor=self))
         task._entity, task._node = entity, entity._node
 
         def free() -> None:
+            if begun is not None:
+                traced.end_run(begun, self._simulation.now)
             entity._end_run(entity)
             self._retry_blocked()
 
         task._finally = free
-        if traced is not None and begun is not None:
-            note_end(task, traced, begun, self._simulation)
         return task
 
     def _run_task(self, task: Task) -> None:
@@ -584,7 +587,8 @@ class MultiThreadedExecutor(Executor):
                 stacklevel=2,
             )
         self._threads = 0
-        self._idle: list[_Worker] = []
+        self._idle: list[Strand] = []
+        self._given: dict[Strand, Job] = {}
         self._failures: list[BaseException] = []
 
     def _spun_by_another(self, strand: Strand) -> bool:
@@ -613,9 +617,7 @@ class MultiThreadedExecutor(Executor):
         return job
 
     def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
-        with suppress(
-            ExternalShutdownException
-        ):  # as the real one does (executors.py); a single-threaded one raises it
+        with suppress(ExternalShutdownException):  # as rclpy's executors.py does; a single-threaded one raises it
             super()._spin_once(strand, deadline, condition)
         if is_notebook(strand.process):
             # When a cell's call returns, time stands still: what is ready must run before, or it would not be seen.
@@ -625,17 +627,39 @@ class MultiThreadedExecutor(Executor):
                 raise self._failures.pop(0)
 
     def _execute(self, job: Job) -> None:
-        worker = self._idle.pop() if self._idle else self._new_worker()
-        worker.give(job)
+        thread = self._idle.pop() if self._idle else self._new_thread()
+        self._given[thread] = job
+        self._simulation.wake(thread)
 
-    def _new_worker(self) -> _Worker:
+    def _new_thread(self) -> Strand:
         if not self._threads:
             self._pool = number_of_pool(self._process)
             self._process.before_exit.append(self._wait_for_callbacks)
-        worker = _Worker(self, f"ThreadPoolExecutor-{self._pool}_{self._threads}")
+        thread = self._process.add_strand(self._work)
+        thread.name, thread.parked = f"ThreadPoolExecutor-{self._pool}_{self._threads}", True
         self._threads += 1
-        self._process.state(RclpyState).workers[worker._strand] = self
-        return worker
+        self._process.state(RclpyState).workers[thread] = self
+        return thread
+
+    def _work(self) -> None:
+        """What each thread does: run the jobs that it is given."""
+        thread = running_strand()
+        assert thread is not None
+        while True:
+            while thread not in self._given:
+                thread.waits_for = IDLE
+                if self._waiter is None:
+                    look_after(thread)  # nobody spins: look for a deadlock
+                thread.park()
+            thread.waits_for = None
+            try:
+                super()._execute(self._given.pop(thread))
+            except GreenletExit:
+                raise
+            except BaseException as error:  # also sys.exit(): it ends the program where the executor is spun
+                self._failures.append(error)
+            self._idle.append(thread)
+            self.wake()
 
     def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
         """Stop: no more callbacks are run. Since Kilted, wait until those that have begun are done, unless told not to."""
@@ -661,38 +685,3 @@ class MultiThreadedExecutor(Executor):
         for error in self._failures:
             if isinstance(error, NeverWakes):
                 print_error(error)
-
-
-class _Worker:
-    """One thread of a multi-threaded executor: a strand that runs the jobs it is given."""
-
-    def __init__(self, executor: MultiThreadedExecutor, name: str) -> None:
-        self._executor = executor
-        self._strand = executor._process.add_strand(self._loop)
-        self._strand.name = name
-        self._strand.waits_for = IDLE
-        self._strand.parked = True
-        self._job: Job | None = None
-
-    def give(self, job: Job) -> None:
-        self._job = job
-        self._strand.simulation.wake(self._strand)
-
-    def _loop(self) -> None:
-        executor = self._executor
-        while True:
-            while self._job is None:
-                self._strand.waits_for = IDLE
-                if executor._waiter is None:
-                    look_after(self._strand)  # nobody spins: look for a deadlock
-                self._strand.park()
-            self._strand.waits_for = None
-            job, self._job = self._job, None
-            try:
-                Executor._execute(executor, job)
-            except GreenletExit:
-                raise
-            except BaseException as error:  # also sys.exit(): it ends the program where the executor is spun
-                executor._failures.append(error)
-            executor._idle.append(self)
-            executor.wake()

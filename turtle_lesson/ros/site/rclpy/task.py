@@ -194,7 +194,6 @@ def _called_by_asyncio(callback: Callable[..., Any], context: Any) -> Callable[[
 class Task(Future):
     """A function or coroutine to be run by an executor, step by step; calling the task does one step."""
 
-    _traced = None
     _number = 0
     """Its place among the tasks of its executor."""
 

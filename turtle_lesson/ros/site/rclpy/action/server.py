@@ -8,8 +8,8 @@ one it holds up everything, the cancelling of its own goal included, unless it i
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from enum import Enum
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
@@ -112,7 +112,7 @@ class ActionServer(ActionEndpoint):
         self._goals: dict[bytes, ServerGoalHandle] = {}
         self._expiring: list[tuple[int, bytes]] = []  # when (ns) the goals that have ended are forgotten: a heap
         self._result_timeout = round(result_timeout * NANOSECONDS)
-        self._traces: dict[str, Callback] = {}
+        self._records: dict[str, Callback] = {}
         profiles = (
             goal_service_qos_profile,
             cancel_service_qos_profile,
@@ -236,13 +236,18 @@ class ActionServer(ActionEndpoint):
     ) -> None:
         logger, simulation = self._node.get_logger(), self._node._ros_simulation
         simulation.sleep_until(simulation.now + OVERHEAD)
+        record, begun = self._record_of(execute_callback), (ready, simulation.now)
+        if record is not None:
+            record.open.append(begun)
         try:
-            with self._traced_run(execute_callback, ready):
-                result = await call_back("execute_callback", execute_callback, goal_handle)
+            result = await call_back("execute_callback", execute_callback, goal_handle)
         except Exception as error:
             result = self._action_type.Result()
             logger.error(f"Error raised in execute callback: {error}")
             print_error(error)
+        finally:
+            if record is not None:
+                record.end_run(begun, simulation.now)
         if goal_handle.is_active:
             logger.warning(f"Goal state not set, assuming aborted. Goal ID: {goal_handle.goal_id.uuid}")
             goal_handle.abort()
@@ -257,24 +262,17 @@ class ActionServer(ActionEndpoint):
             raise
         goal_handle._finish(response)
 
-    @contextmanager
-    def _traced_run(self, callback: Callable[..., Any], ready: int) -> Iterator[None]:
-        """Put an execute callback, which could have begun when it was `ready` (ns), into the world's trace, if it keeps one."""
+    def _record_of(self, callback: Callable[..., Any]) -> Callback | None:
+        """Where the runs of an execute callback are noted, if the world keeps a trace of them."""
         entry, trace = self._node._ros_entry, self._node._ros_graph.trace
         if trace is None or entry.hidden:
-            yield
-            return
+            return None
         name = name_of(callback)
-        if name not in self._traces:
+        if name not in self._records:
             awaits = inspect.iscoroutinefunction(callback)
-            self._traces[name] = Callback(entry.full_name, name, "action", self._name, 0, entry.process.pid, awaits)
-            trace.callbacks.append(self._traces[name])
-        record, begun = self._traces[name], (ready, trace.now)
-        record.open.append(begun)
-        try:
-            yield
-        finally:
-            record.end_run(begun, trace.now)
+            self._records[name] = Callback(entry.full_name, name, "action", self._name, 0, entry.process.pid, awaits)
+            trace.callbacks.append(self._records[name])
+        return self._records[name]
 
     def notify_goal_done(self) -> None:
         """A goal has ended: look which ones have expired. The server does that for itself, too."""
