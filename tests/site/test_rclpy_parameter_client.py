@@ -279,21 +279,6 @@ def test_what_is_deleted_is_no_change_of_a_value(run: Run) -> None:
     assert run(program) == [5, "speed"]
 
 
-def test_the_callbacks_can_be_kept_without_a_node(world: World) -> None:
-    from rcl_interfaces.msg import ParameterEvent
-
-    heard: list[Any] = []
-    callbacks = ParameterEventHandler.Callbacks()
-    handle = callbacks.add_parameter_callback("speed", "/n", lambda parameter: heard.append(parameter.name))
-    callbacks.add_parameter_event_callback(lambda event: heard.append(event.node))
-    speed = Parameter("speed", value=1.0).to_parameter_msg()
-    callbacks.event_callback(ParameterEvent(node="/n", changed_parameters=[speed]))
-    callbacks.event_callback(ParameterEvent(node="/other", changed_parameters=[speed]))
-    assert heard == ["speed", "/n", "/other"]
-    callbacks.remove_parameter_callback(handle)
-    assert callbacks.parameter_callbacks == {}
-
-
 # ---------------------------------------------------------------- values from texts and files
 
 

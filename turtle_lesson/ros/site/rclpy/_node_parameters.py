@@ -138,9 +138,9 @@ class NodeParameters(NodeEntities):
         `alternative_value`, an rcl_interfaces/msg/ParameterValue, is taken if the present one does not suit it. Raises
         InvalidParameterValueException if neither does.
         """
-        if name not in self._ros_parameters and self._ros_allow_undeclared:
+        if not self._ros_is_declared(name):
             return Parameter(name).get_parameter_value()
-        if self.describe_parameter(name).read_only:
+        if self._ros_descriptors[name].read_only:
             raise ParameterImmutableException(name)
         choices = [self.get_parameter(name)]
         if alternative_value is not None:
@@ -224,7 +224,8 @@ class NodeParameters(NodeEntities):
 
     def undeclare_parameter(self, name: str) -> None:
         """Forget a parameter. Raises ParameterNotDeclaredException or ParameterImmutableException."""
-        self._ros_check_declared(name)
+        if name not in self._ros_parameters:
+            raise self._ros_not_declared(name, name)
         if self._ros_descriptors[name].read_only:
             raise ParameterImmutableException(name)
         del self._ros_parameters[name], self._ros_descriptors[name]
@@ -235,9 +236,8 @@ class NodeParameters(NodeEntities):
 
     def get_parameter(self, name: str) -> Parameter:
         """A declared parameter. Raises ParameterNotDeclaredException or ParameterUninitializedException."""
-        if name not in self._ros_parameters and self._ros_allow_undeclared:
+        if not self._ros_is_declared(name):
             return Parameter(name)
-        self._ros_check_declared(name)
         parameter = self._ros_parameters[name]
         if parameter.type_ == Parameter.Type.NOT_SET and not self._ros_descriptors[name].dynamic_typing:
             raise ParameterUninitializedException(name)
@@ -261,10 +261,7 @@ class NodeParameters(NodeEntities):
 
     def get_parameter_type(self, name: str) -> Any:
         """The number of a declared parameter's type (rcl_interfaces/msg/ParameterType)."""
-        if name not in self._ros_parameters and self._ros_allow_undeclared:
-            return Parameter.Type.NOT_SET
-        self._ros_check_declared(name)
-        return self._ros_parameters[name].type_.value
+        return self._ros_parameters[name].type_.value if self._ros_is_declared(name) else Parameter.Type.NOT_SET
 
     def get_parameter_types(self, names: list[str]) -> list[Any]:
         """The numbers of several parameters' types."""
@@ -272,12 +269,9 @@ class NodeParameters(NodeEntities):
 
     def describe_parameter(self, name: str) -> Any:
         """The rcl_interfaces/msg/ParameterDescriptor of a declared parameter."""
-        if name not in self._ros_descriptors and self._ros_allow_undeclared:
-            from rcl_interfaces.msg import ParameterDescriptor
+        from rcl_interfaces.msg import ParameterDescriptor
 
-            return ParameterDescriptor()
-        self._ros_check_declared(name)
-        return self._ros_descriptors[name]
+        return self._ros_descriptors[name] if self._ros_is_declared(name) else ParameterDescriptor()
 
     def describe_parameters(self, names: list[str]) -> list[Any]:
         """The descriptors of several declared parameters."""
@@ -297,9 +291,11 @@ class NodeParameters(NodeEntities):
         parents = dict.fromkeys(parent for parent, separator, _ in parts if separator)
         return ListParametersResult(names=names, prefixes=list(parents))
 
-    def _ros_check_declared(self, name: str) -> None:
-        if name not in self._ros_parameters:
+    def _ros_is_declared(self, name: str) -> bool:
+        """Whether a parameter is declared. Raises ParameterNotDeclaredException if it is not, and has to be."""
+        if name not in self._ros_parameters and not self._ros_allow_undeclared:
             raise self._ros_not_declared(name, name)
+        return name in self._ros_parameters
 
 
 # What a declaration may say, and which values a descriptor allows. Reasons are given in rclpy's words (its node.py).
@@ -373,11 +369,6 @@ def _range_flaw(parameter: Parameter, limits: Any) -> str:
 
 def _is_listed(name: str, prefixes: list[str], depth: int) -> bool:
     """Whether a parameter is one that a list of what is below some prefixes, to some depth, contains."""
-    if not prefixes:
-        return depth == 0 or name.count(PARAMETER_SEPARATOR_STRING) < depth
-    for prefix in prefixes:
-        start = prefix + PARAMETER_SEPARATOR_STRING
-        is_below = name.startswith(start) and (depth == 0 or name.count(PARAMETER_SEPARATOR_STRING, len(start)) < depth)
-        if is_below or name == prefix:
-            return True
-    return False
+    starts = [prefix + PARAMETER_SEPARATOR_STRING for prefix in prefixes] or [""]
+    below = [name.removeprefix(start) for start in starts if name.startswith(start)]
+    return name in prefixes or any(not depth or rest.count(PARAMETER_SEPARATOR_STRING) < depth for rest in below)

@@ -32,61 +32,11 @@ class ParameterEventCallbackHandle:
     callback: Callable[[Any], Any]
 
 
-class _Callbacks:
-    """Keeps the callbacks, and calls those that an event concerns."""
-
-    def __init__(self) -> None:
-        self.parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
-        self.event_callbacks: list[ParameterEventCallbackHandle] = []
-
-    def event_callback(self, event: Any) -> None:
-        """Call what an event concerns."""
-        for (parameter_name, node_name), handles in list(self.parameter_callbacks.items()):
-            parameter = ParameterEventHandler.get_parameter_from_event(event, parameter_name, node_name)
-            if parameter is not None:
-                for handle in list(handles):
-                    handle.callback(parameter)
-        for each in list(self.event_callbacks):
-            each.callback(event)
-
-    def add_parameter_callback(
-        self, parameter_name: str, node_name: str, callback: Callable[[Any], Any]
-    ) -> ParameterCallbackHandle:
-        """Have `callback(parameter)` called for a parameter of a node, which is given by its full name."""
-        handle = ParameterCallbackHandle(parameter_name, node_name, callback)
-        self.parameter_callbacks.setdefault((parameter_name, node_name), []).insert(0, handle)
-        return handle
-
-    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
-        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-        key = (handle.parameter_name, handle.node_name)
-        handles = self.parameter_callbacks.get(key, [])
-        if handle not in handles:
-            raise RuntimeError(GONE)
-        handles.remove(handle)
-        if not handles:
-            del self.parameter_callbacks[key]
-
-    def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
-        """Have `callback(event)` called for each event."""
-        handle = ParameterEventCallbackHandle(callback)
-        self.event_callbacks.insert(0, handle)
-        return handle
-
-    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
-        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-        if handle not in self.event_callbacks:
-            raise RuntimeError(GONE)
-        self.event_callbacks.remove(handle)
-
-
-class ParameterEventHandler(_Callbacks):
+class ParameterEventHandler:
     """Listens on /parameter_events with a node that is spun. Its callbacks run in that subscription's callback group.
 
     The newest callback is called first; those for one parameter go before those for whole events.
     """
-
-    Callbacks = _Callbacks
 
     def __init__(
         self,
@@ -101,17 +51,27 @@ class ParameterEventHandler(_Callbacks):
 
         self.node = node
         self.qos_profile = qos_profile
-        super().__init__()
+        self._parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
+        self._event_callbacks: list[ParameterEventCallbackHandle] = []
         self.parameter_event_subscription = node.create_subscription(
             ParameterEvent,
             "/parameter_events",
-            self.event_callback,
+            self._on_event,
             qos_profile,
             callback_group=callback_group,
             event_callbacks=event_callbacks,
             qos_overriding_options=qos_overriding_options,
             raw=raw,
         )
+
+    def _on_event(self, event: Any) -> None:
+        for (parameter_name, node_name), handles in list(self._parameter_callbacks.items()):
+            parameter = self.get_parameter_from_event(event, parameter_name, node_name)
+            if parameter is not None:
+                for handle in list(handles):
+                    handle.callback(parameter)
+        for each in list(self._event_callbacks):
+            each.callback(event)
 
     def destroy(self) -> None:
         """Listen no more."""
@@ -142,4 +102,25 @@ class ParameterEventHandler(_Callbacks):
             node_name = self.node.get_fully_qualified_name()
         elif not node_name.startswith("/"):
             node_name = f"{self.node.get_namespace().rstrip('/')}/{node_name}"
-        return super().add_parameter_callback(parameter_name, node_name, callback)
+        handle = ParameterCallbackHandle(parameter_name, node_name, callback)
+        self._parameter_callbacks.setdefault((parameter_name, node_name), []).insert(0, handle)
+        return handle
+
+    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
+        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+        handles = self._parameter_callbacks.get((handle.parameter_name, handle.node_name), [])
+        if handle not in handles:
+            raise RuntimeError(GONE)
+        handles.remove(handle)
+
+    def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
+        """Have `callback(event)` called for each rcl_interfaces/msg/ParameterEvent."""
+        handle = ParameterEventCallbackHandle(callback)
+        self._event_callbacks.insert(0, handle)
+        return handle
+
+    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
+        """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
+        if handle not in self._event_callbacks:
+            raise RuntimeError(GONE)
+        self._event_callbacks.remove(handle)

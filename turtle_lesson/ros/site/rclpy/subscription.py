@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from enum import Enum
 from types import GenericAlias
 from typing import Any
 
@@ -24,12 +23,6 @@ class Subscription(Entity):
 
     _kind = SUBSCRIPTION
     __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Subscription[String] in a hint
-
-    class CallbackType(Enum):
-        """What a callback is called with (since Iron)."""
-
-        MessageOnly = 0
-        WithMessageInfo = 1
 
     def __init__(
         self,

@@ -8,7 +8,6 @@ import sys
 import warnings
 import weakref
 from collections.abc import Callable, Generator
-from enum import Enum
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -32,14 +31,6 @@ def at_once(callback: Function) -> Function:
     """Decorator for a done callback of rclpy's own: it is called right when the future is done, by no executor."""
     callback._at_once = True  # type: ignore[attr-defined]
     return callback
-
-
-class FutureState(Enum):
-    """What has become of a future (newer releases)."""
-
-    PENDING = "PENDING"
-    CANCELLED = "CANCELLED"
-    FINISHED = "FINISHED"
 
 
 class Future:
