@@ -37,11 +37,6 @@ class NodeEntry:
         return f"/{self.name}" if self.namespace == "/" else f"{self.namespace}/{self.name}"
 
     @property
-    def logger_name(self) -> str:
-        """The name of the node's logger: its full name with dots."""
-        return self.full_name.strip("/").replace("/", ".")
-
-    @property
     def hidden(self) -> bool:
         """Whether ROS's tools leave this node out of their lists: a part of its name starts with an underscore."""
         return is_hidden(self.full_name)

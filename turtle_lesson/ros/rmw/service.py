@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from .transport import ReliableLine, latency_of, nobody
@@ -15,16 +16,14 @@ if TYPE_CHECKING:
     from .trace import Call, Trace
 
 
+@dataclass(slots=True, eq=False)
 class Request:
-    """A request on its way: who asked, the number it has there, and the message."""
+    """A request on its way: who asked, the number it has there, the message, and what a trace keeps of the call."""
 
-    __slots__ = ("call", "client", "message", "number")
-
-    def __init__(self, client: ClientEnd, number: int, message: Any, call: Call | None) -> None:
-        self.client = client
-        self.number = number
-        self.message = message
-        self.call = call
+    client: ClientEnd
+    number: int
+    message: Any
+    call: Call | None
 
     def answer(self, message: Any) -> None:
         """Send the answer to the client that asked."""
@@ -143,7 +142,7 @@ class ClientEnd:
                 receive(wire)
 
             ends = f"{self.name} {self.node.full_name} {node.full_name}"
-            line = ReliableLine(self.simulation, self.latency, deliver, nobody_counts, self._network, ends)
+            line = ReliableLine(self.simulation, self.latency, deliver, nobody, self._network, ends)
             line.use(self._network.of(self.name))
             self._lines[receive] = line
         return line
@@ -153,7 +152,3 @@ class ClientEnd:
             self.trace.told(call)
         self.queue.append(answer)
         self.wake()
-
-
-def nobody_counts(_: int) -> None:
-    """Nobody asks how many requests or answers were lost: none is."""

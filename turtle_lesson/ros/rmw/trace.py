@@ -76,10 +76,8 @@ class Trace:
 
     def received(self, call: Call, server: NodeEntry) -> None:
         """A request has arrived at a server."""
-        if call.received is not None:
-            call.others += 1
-            return
-        call.server, call.process, call.received = server.full_name, server.process.pid, self.now
+        if call.received is None:  # of several servers of a name the first one counts
+            call.server, call.process, call.received = server.full_name, server.process.pid, self.now
 
     def answered(self, call: Call, response: Any) -> None:
         """A server sends its answer. Only the first one counts, for the caller as for us."""
@@ -203,5 +201,3 @@ class Call:
     answered: int | None = None
     response: Any = None
     told: int | None = None
-    others: int = field(default=0)
-    """How many more servers got the same request."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import islice
 from random import Random
 from typing import TYPE_CHECKING, Any
@@ -76,7 +77,7 @@ class Line:
 
     def close(self) -> None:
         """The one who would get the messages has gone: deliver nothing more."""
-        self._deliver = self._told = _nothing
+        self._deliver = self._told = nobody
 
     def linger(self) -> None:
         """The one who sends has gone: what is under way still arrives."""
@@ -125,17 +126,15 @@ class BestEffortLine(Line):
         self._deliver(wire, sent)
 
 
+@dataclass(slots=True, eq=False)
 class _Parcel:
     """A message on a reliable line: travelling until `due` (ns), here, missing, or given up."""
 
-    __slots__ = ("due", "given_up", "here", "sent", "wire")
-
-    def __init__(self, wire: Any, sent: int) -> None:
-        self.wire = wire
-        self.sent = sent
-        self.due: int | None = None
-        self.here = False
-        self.given_up = False
+    wire: Any
+    sent: int
+    due: int | None = None
+    here: bool = False
+    given_up: bool = False
 
     @property
     def missing(self) -> bool:
@@ -247,10 +246,6 @@ class ReliableLine(Line):
             self._deliver(parcel.wire, parcel.sent)
 
 
-def _nothing(*_: object) -> None:
-    """Where a closed line leads to."""
-
-
 # -- latency ------------------------------------------------------------------------------------------------------
 # How long messages and requests are under way in the simulation's usual network.
 
@@ -269,5 +264,5 @@ def latency_of(name: str) -> int:
     return LATENCY + zlib.crc32(name.partition("/_action/")[0].encode()) % LATENCY_SPREAD
 
 
-def nobody() -> None:
-    """What is called when data arrives for somebody who does not wait for it yet."""
+def nobody(*_: object) -> None:
+    """What is told when nobody waits to be told: the other end has gone, or does not listen yet."""

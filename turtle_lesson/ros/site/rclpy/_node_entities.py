@@ -199,7 +199,7 @@ class NodeEntities(NodeGraph):
         if self._ros_shut_down:
             raise not_valid("guard_condition")
         group = callback_group or self._ros_default_callback_group
-        return self._ros_keep(GuardCondition(callback, group, context=self._ros_context))
+        return self._ros_keep(GuardCondition(callback, group))
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Something to sleep by, `frequency` times a second."""

@@ -97,7 +97,6 @@ class Executor:
         self._waiters: list[Strand] = []
         self._make_ready = self._simulation.make_ready
         self._tasks_in_order = current_world().release.has(TASKS_IN_ORDER)
-        self._tasks_made = 0
         self._spinning: list[Strand] = []
         self._spinning_forever: list[Strand] = []  # strands in `spin`, which do nothing else before the shutdown
         self._calls: list[Future] = []  # for what strands wait, without a timeout, in Client.call
@@ -163,13 +162,8 @@ class Executor:
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
         """Have a function called, or a coroutine run, by this executor; the task is a future of its result."""
-        task = self._number(Task(callback, args, kwargs, executor=self))
+        task = Task(callback, args, kwargs, executor=self)
         self._resume_task(task)
-        return task
-
-    def _number(self, task: Task) -> Task:
-        self._tasks_made += 1
-        task._number = self._tasks_made
         return task
 
     def create_future(self) -> Future:
@@ -279,7 +273,7 @@ class Executor:
             began, arrivals = self._simulation.now, traced.arrivals
             begun = (entity._next if arrivals is None else arrivals.popleft() if arrivals else began, began)
             traced.open.append(begun)
-        task = self._number(Task(_call_and_await, (entity, entity._take()), executor=self))
+        task = Task(_call_and_await, (entity, entity._take()), executor=self)
         task._entity, task._node = entity, entity._node
 
         def free() -> None:

@@ -8,6 +8,7 @@ import sys
 import warnings
 import weakref
 from collections.abc import Callable, Generator
+from itertools import count
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from .executors import Executor
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+NUMBERS = count()
+"""Of tasks, in the order in which they are made."""
 
 FOR_ALL = object()
 """Stands for a future that is cancelled for good, not only for one of asyncio's coroutines."""
@@ -185,9 +189,6 @@ def _called_by_asyncio(callback: Callable[..., Any], context: Any) -> Callable[[
 class Task(Future):
     """A function or coroutine to be run by an executor, step by step; calling the task does one step."""
 
-    _number = 0
-    """Its place among the tasks of its executor."""
-
     def __init__(
         self,
         handler: Callable[..., Any] | Any,
@@ -202,6 +203,7 @@ class Task(Future):
             handler = handler(*self._args, **self._kwargs)
         self._handler: Any = handler
         self._executing = False
+        self._number = next(NUMBERS)
         self._finally: Callable[[], object] | None = None
         self._entity: Any = None
         self._node: Any = None
