@@ -71,9 +71,9 @@ class Line:
         if self._random is None and (self.conditions.loss or self.conditions.jitter):
             self._random = self._network.random(self._ends)
 
-    def next_look(self) -> int | None:
-        """When (ns) to look again whether everything has arrived; None if it has, or if nobody will ever know."""
-        return None
+    def is_busy(self) -> bool:
+        """Whether something has not arrived yet, as far as that will ever be known."""
+        return False
 
     def close(self) -> None:
         """The one who would get the messages has gone: deliver nothing more."""
@@ -170,13 +170,9 @@ class ReliableLine(Line):
         """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
         return [(each.sent, each.wire) for each in self._parcels if each.here or each.due is not None]
 
-    def next_look(self) -> int | None:
+    def is_busy(self) -> bool:
         """See Line."""
-        if not self._parcels:
-            return None
-        now = self._simulation.now
-        soon = [each.due for each in self._parcels if each.due is not None]
-        return max(now, *soon) if len(soon) == len(self._parcels) else now + NOTICED_AFTER
+        return bool(self._parcels)
 
     def close(self) -> None:
         """See Line."""

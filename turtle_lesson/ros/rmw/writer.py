@@ -129,16 +129,12 @@ class Writer(End):
                 found.append((parcel[2], parcel[1]))
         return found
 
-    def next_acknowledgement(self) -> int | None:
-        """When (ns) to look again whether reliable readers have got everything; None if they have."""
-        if not self.quality.reliable:
-            return None
-        waits: list[int] = []
-        for arrival, _, action, parcel in self._simulation.scheduled():
-            if action is _deliver and parcel[0] is self and any(each.quality.reliable for each in parcel[1]):
-                waits.append(arrival)
-        waits += [look for line in self._lines.values() if (look := line.next_look()) is not None]
-        return max(waits, default=None)
+    def is_acknowledged(self) -> bool:
+        """Whether all reliable readers have got everything."""
+        reliable = [reader for reader in self.readers if self.quality.reliable and reader.quality.reliable]
+        return not any(
+            self._lines[reader].is_busy() if reader in self._lines else self.under_way_to(reader) for reader in reliable
+        )
 
     # -- meeting ---------------------------------------------------------------------------------------------------
 

@@ -8,10 +8,10 @@ from typing import Any
 
 from turtle_lesson.ros.idl import checks
 from turtle_lesson.ros.rmw.writer import Writer
-from turtle_lesson.ros.sim.simulation import NEVER
+from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
-from ._blocking import drives_the_simulation
+from ._blocking import wait_until
 from ._entity import Destroyable
 from ._hints import no_message
 from .callback_groups import CallbackGroup
@@ -20,6 +20,8 @@ from .event_handler import EventHandler, PublisherEventCallbacks
 from .qos import QoSProfile
 
 FOR_EVER = Duration(seconds=-1)
+LOOK_AGAIN = 1_000_000
+"""How often, in ns, `wait_for_all_acked` looks."""
 
 
 class Publisher(Destroyable):
@@ -83,7 +85,6 @@ class Publisher(Destroyable):
         """Say that this publisher is alive. One with MANUAL_BY_TOPIC says or publishes something within each lease."""
         self._end("failed to assert liveliness: publisher's").assert_liveliness()
 
-    @drives_the_simulation
     def wait_for_all_acked(self, timeout: Duration = FOR_EVER) -> bool:
         """Wait until all reliable subscriptions have what was published; False if the timeout is over before that.
 
@@ -92,13 +93,9 @@ class Publisher(Destroyable):
         if not isinstance(timeout, Duration):
             raise TypeError(f"the timeout must be a Duration, got {timeout!r}: try Duration(seconds=1)")
         writer = self._end("failed to wait for all acked: publisher's")
-        simulation = writer.topic.simulation
-        deadline = simulation.now + timeout.nanoseconds if timeout.nanoseconds >= 0 else NEVER
-        while (look := writer.next_acknowledgement()) is not None:
-            if simulation.now >= deadline:
-                return False
-            simulation.sleep_until(min(max(look, simulation.now + 1), deadline))
-        return True
+        assert self._node is not None
+        seconds = None if timeout.nanoseconds < 0 else timeout.nanoseconds / NANOSECONDS
+        return wait_until(writer.is_acknowledged, seconds, LOOK_AGAIN, self._node.context, "wait_for_all_acked")
 
     def destroy(self) -> None:
         """Leave the topic."""

@@ -218,22 +218,16 @@ class Rate:
     def __init__(self, timer: Timer, *, context: Context) -> None:
         self._timer = timer
         self._context = context
-        self._is_shutdown = False
         self._is_destroyed = False
         self._ticked = False
         self._sleepers: list[WakeUp] = []
         timer.callback = self.tick
-        context.wake_on_shutdown(self._on_shutdown)
 
     def tick(self) -> None:
         """The timer ticks."""
         self._ticked = True
         for wake_up in self._sleepers:
             wake_up.wake()
-
-    def _on_shutdown(self) -> None:
-        self._is_shutdown = True
-        self.destroy()
 
     @drives_the_simulation
     def sleep(self) -> None:
@@ -242,7 +236,7 @@ class Rate:
         Raises ROSInterruptException after the shutdown, RuntimeError if the rate was destroyed, and NeverWakes where
         nobody could ever let the timer tick (a real one hangs there).
         """
-        if self._is_shutdown:
+        if not self._context.ok():
             raise ROSInterruptException()
         if self._is_destroyed:
             raise RuntimeError("Rate cannot sleep because it has been destroyed")
@@ -252,7 +246,7 @@ class Rate:
         strand = running_strand()
         assert strand is not None
         self._wait(strand)
-        if self._is_shutdown:
+        if not self._context.ok():
             raise ROSInterruptException()
 
     def _wait(self, strand: Strand) -> None:
