@@ -70,7 +70,10 @@ class Trace:
 
     def asked(self, client: Any, message: Any) -> Call:
         """A client asks."""
-        call = Call(client.name, client.type_name, caller_name(client.node), self.now, message)
+        node = client.node
+        words = node.process.argv if node.hidden else []
+        caller = " ".join(words[:3]) if words[:1] == ["ros2"] else node.full_name  # a command, or a node
+        call = Call(client.name, client.type_name, caller, self.now, message)
         self.calls.append(call)
         return call
 
@@ -88,14 +91,6 @@ class Trace:
         """The answer has arrived."""
         if call.told is None:
             call.told = self.now
-
-
-def caller_name(node: NodeEntry) -> str:
-    """The caller: a node, or the command whose hidden node it is."""
-    words = node.process.argv
-    if node.hidden and words and words[0] == "ros2":
-        return " ".join(words[:3])
-    return node.full_name
 
 
 # -- callbacks ----------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.rmw.trace import CHUNK
 
 from ._hints import explain_call
-from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, begin_of, end_of
+from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, begin_of
 
 if TYPE_CHECKING:
     from turtle_lesson.ros.rmw.trace import Callback
@@ -110,12 +110,12 @@ class Entity(Destroyable):
         for function in (Entity._signal, Entity._run):
             setattr(cls, function.__name__, FunctionType(function.__code__.replace(), function.__globals__))
 
-    def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
+    def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup) -> None:
         self.callback = callback
-        self.callback_group: Any = callback_group
+        self.callback_group = callback_group
         self._begin = begin_of(callback_group)
         """Asks the group whether the callback may run, and takes it."""
-        self._end_run = end_of(callback_group)
+        self._end_run = callback_group.ending_execution
         """Frees the group again."""
         self._exclusive_group = callback_group if type(callback_group) is MutuallyExclusiveCallbackGroup else None
         """The group, if it is of the usual kind: that is taken and freed here, without a call."""
@@ -130,8 +130,7 @@ class Entity(Destroyable):
         self._turn = NO_TURN
         self._number = 0
         self._destroyed = False
-        if callback_group is not None:
-            callback_group.add_entity(self)
+        callback_group.add_entity(self)
 
     @property
     def _executor(self) -> Executor | None:
@@ -230,5 +229,4 @@ class Entity(Destroyable):
         self._assign(Assignment())
         if self._node is not None and self in self._node._ros_waiting_entities:
             self._node._ros_waiting_entities.remove(self)
-        if self.callback_group is not None:
-            self.callback_group.entities.discard(self)
+        self.callback_group.entities.discard(self)

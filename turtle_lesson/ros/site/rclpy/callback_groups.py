@@ -72,22 +72,11 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         self._active_entity = None
 
 
-def begin_of(group: CallbackGroup | None) -> Callable[[Any], bool]:
+def begin_of(group: CallbackGroup) -> Callable[[Any], bool]:
     """What an executor asks before it runs a callback of a group. It is settled once, when an entity is made.
 
     Groups of rclpy's own need one question, for theirs are the same two; a program's own group is asked both.
     """
-    if group is None:
-        return _always
     if type(group).can_execute in (ReentrantCallbackGroup.can_execute, MutuallyExclusiveCallbackGroup.can_execute):
         return group.beginning_execution
     return lambda entity: group.can_execute(entity) and group.beginning_execution(entity)
-
-
-def end_of(group: CallbackGroup | None) -> Callable[[Any], object]:
-    """What an executor calls after that."""
-    return _always if group is None else group.ending_execution
-
-
-def _always(entity: Any) -> bool:
-    return True

@@ -14,7 +14,7 @@ class GuardCondition(Entity):
 
     _kind = GUARD
 
-    def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup | None) -> None:
+    def __init__(self, callback: Callable[..., Any] | None, callback_group: CallbackGroup) -> None:
         super().__init__(callback, callback_group)
         self._triggered = False
 

@@ -52,7 +52,7 @@ class Timer(Entity):
     def __init__(
         self,
         callback: Callable[..., Any] | None,
-        callback_group: CallbackGroup | None,
+        callback_group: CallbackGroup,
         timer_period_ns: int,
         clock: Clock,
         *,

@@ -37,11 +37,6 @@ PARTS = {
 """The parts, by what `execute` calls what comes from each: its name below the action's, and that of its type in `Impl`."""
 TOPICS = ("feedback", "status")
 
-ORDER = {
-    "client": "The order is ActionClient(node, action_type, action_name).",
-    "server": "The order is ActionServer(node, action_type, action_name, execute_callback).",
-}
-
 
 def check_action(role: str, node: Any, action_type: Any) -> None:
     """Raise TypeError, AttributeError or RuntimeError for what is no node or no action type."""
@@ -51,7 +46,11 @@ def check_action(role: str, node: Any, action_type: Any) -> None:
     try:
         check_for_type_support(action_type)
     except AttributeError as error:
-        error.add_note(f"{ORDER[role]} It needs an action's class, such as example_interfaces.action.Fibonacci.")
+        last = ", execute_callback" if role == "server" else ""
+        error.add_note(
+            f"The order is Action{role.title()}(node, action_type, action_name{last}). It needs an action's class, such as "
+            "example_interfaces.action.Fibonacci."
+        )
         raise
     if not hasattr(action_type, "Impl"):
         problem = RuntimeError(

@@ -128,13 +128,6 @@ class ActionClient(ActionEndpoint):
             name = f"{self._action_type.__name__}.Goal"
             raise TypeError(f"a goal of {self._action_name} is of type {name}, got {shown(goal)}: try {name}(…)")
 
-    def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future:
-        request = self._action_type.Impl.GetResultService.Request(goal_id=goal_handle.goal_id)
-        future = self._result_client.call_async(request)
-        key = key_of(goal_handle.goal_id)
-        future.add_done_callback(lambda _: self._feedback_callbacks.pop(key, None))
-        return future
-
     @drives_the_simulation
     def _wait(self, client: Client, what: str, ask: Callable[[], Future]) -> Any:
         """Ask, and wait for the answer as `Client.call` does."""
@@ -271,4 +264,8 @@ class ClientGoalHandle:
 
     def get_result_async(self) -> Future:
         """Ask for the goal's result; the future will have its `status` and `result` when it has ended."""
-        return self._action_client._get_result_async(self)
+        client, key = self._action_client, key_of(self.goal_id)
+        request = client._action_type.Impl.GetResultService.Request(goal_id=self.goal_id)
+        future = client._result_client.call_async(request)
+        future.add_done_callback(lambda _: client._feedback_callbacks.pop(key, None))
+        return future
