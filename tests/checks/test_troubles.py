@@ -26,7 +26,7 @@ def cases() -> list[tuple[str, int]]:
     for name, trouble in TROUBLES.items():
         for seed in range(10):
             chance = Random(f"{trouble.name} {seed}")
-            found.setdefault((name, chance.choice(trouble.faults(chance)).cause), seed)
+            found.setdefault((name, chance.choice(list(trouble.faults(chance))).cause), seed)
     return [(name, seed) for (name, _), seed in found.items()]
 
 

@@ -143,7 +143,7 @@ class _Watch:
     def __init__(self, pid: int, limit: float) -> None:
         self._process, self._limit = psutil.Process(pid), limit
         self._began = self._mark = self._computed()
-        self._since, self._waited = time.monotonic(), 0.0
+        self._worked = time.monotonic()
 
     def _computed(self) -> float:
         times = self._process.cpu_times()
@@ -155,13 +155,11 @@ class _Watch:
             now, computed = time.monotonic(), self._computed()
         except psutil.Error:  # it has ended a moment ago
             return ""
-        if now - self._since > WINDOW:
-            waits = computed - self._mark < WAITING * (now - self._since)
-            self._waited = self._waited + now - self._since if waits else 0.0
-            self._since, self._mark = now, computed
+        if computed - self._mark >= WAITING * max(now - self._worked, WINDOW):
+            self._worked, self._mark = now, computed
         if computed - self._began > self._limit:
             return f"the run took more than {self._limit:g} s of CPU time"
-        if self._waited > max(self._limit, WAITS):
+        if now - self._worked > max(self._limit, WAITS):
             return f"the run waited for something outside its world for {max(self._limit, WAITS):g} s"
         return ""
 

@@ -56,10 +56,8 @@ class TroubleEnvironment:
         if "robot_draft" not in world.packages:
             programs: dict[str, Target] = {path.stem: path for path in DRAFTS.glob("navigator_*.py")}
             for node in SMALL_NODES:
-                name, code = (
-                    module_name(node).removeprefix("_"),
-                    f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n",
-                )
+                name = module_name(node).removeprefix("_")
+                code = f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n"
                 programs[name] = PythonProgram(DRAFTS / name, (), code)
             world.packages.add(Package("robot_draft", DRAFTS, executables=programs))
 

@@ -13,7 +13,7 @@ from rclpy.parameter import Parameter, parameter_value_to_python
 
 from ...learner.workspace import workspace
 from ..words import count, did_you_mean, listed, number, shortened
-from .probe import Answer, Heard, Probe
+from .probe import Answer, Heard, Probe, remembered
 from .registry import Expectation, expectation
 from .results import NO_ERROR, Advice, CannotLook, Seen, hinted
 
@@ -166,7 +166,7 @@ def learner_function(probe: Probe, name: str, file: str = "") -> Callable[..., A
     what the file raises where it cannot be read as Python.
     """
     cells = vars(sys.modules["__main__"])
-    names = probe.once(("functions", file), lambda: _names_in(probe, file)) if file else cells
+    names = _names_in(probe, file) if file else cells
     place = f"{file} of your package" if file else "this notebook"
     found = names.get(name)
     if found is None:
@@ -218,6 +218,7 @@ def _shown(value: Any) -> str:
     return f"({', '.join(f'{name}={_shown(getattr(value, name))}' for name in fields())})"
 
 
+@remembered
 def _names_in(probe: Probe, file: str) -> dict[str, Any]:
     """All names that a file of the package makes when it is read; its `main` is not started."""
     path = workspace().nodes / file

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..words import angle, number, point, turned
 from .assertions import gaps_of, no_answer, told
-from .probe import Answer, Heard, Probe
+from .probe import Answer, Heard, Probe, remembered
 from .registry import expectation
 from .results import CannotLook, Seen, hinted
 
@@ -157,14 +157,6 @@ def ask_soon_for(probe: Probe, goal: Goal) -> Callable[[], Answer | None]:
     return probe.ask_soon(NAVIGATE, NAVIGATE_TYPE, x=x, y=y, theta=theta)
 
 
-def drive(probe: Probe, way: Way) -> Drive:
-    """The drive on a way; the first time it is done, from then on it is remembered.
-
-    Where the turtle is put at a beginning, time passes until it has come to rest.
-    """
-    return probe.once(way, lambda: _drive(probe, way))
-
-
 def driven(probe: Probe, way: Way) -> Drive:
     """The drive on a way, whose goal was answered. Raises CannotLook where it was not."""
     it = drive(probe, way)
@@ -172,7 +164,9 @@ def driven(probe: Probe, way: Way) -> Drive:
     return it
 
 
-def _drive(probe: Probe, way: Way) -> Drive:
+@remembered
+def drive(probe: Probe, way: Way) -> Drive:
+    """The drive on a way. Where the turtle is put at a beginning, time passes until it has come to rest."""
     if way.begin:
         put(probe, way.begin)
     begin = where(probe)

@@ -1,6 +1,6 @@
 """A probe observes a running system through a node, lets robot time pass, and cleans up after itself.
 
-It listens, calls services, publishes and reads the graph as any node may. It remembers what it has seen (`once`), so that
+It listens, calls services, publishes and reads the graph as any node may. It remembers what it has seen (`remembered`), so that
 several expectations can be about the same drive.
 """
 
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import reduce, wraps
 from operator import attrgetter
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 from rcl_interfaces.msg import Log
 from rclpy.client import Client
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from ...session.check_target import CheckTarget
     from ...turtlesim.obstacles import Box, Circle
 
+P = ParamSpec("P")
 T = TypeVar("T")
 
 PIECE = 0.1
@@ -110,12 +111,21 @@ def _insist_on(type_name: str, words: str, ends: list[tuple[str, str]]) -> None:
         raise CannotLook(f"{words} as {listed(types)}, not as {type_name}")
 
 
-def remembered(look: Callable[[Probe], T]) -> Callable[[Probe], T]:
-    """Decorator: a probe carries `look` out once, and remembers what it gave, or the CannotLook that it raised."""
+def remembered(look: Callable[Concatenate[Probe, P], T]) -> Callable[Concatenate[Probe, P], T]:
+    """Decorator: with the same arguments a probe does this once, and remembers what it gave, or the CannotLook it raised."""
 
     @wraps(look)
-    def look_once(probe: Probe) -> T:
-        return probe.once(look, lambda: look(probe))
+    def look_once(probe: Probe, *given: P.args, **options: P.kwargs) -> T:
+        key = (look, *given, *options.items())
+        if key not in probe.memory:
+            try:
+                probe.memory[key] = look(probe, *given, **options)
+            except CannotLook as reason:
+                probe.memory[key] = reason
+        found = probe.memory[key]
+        if isinstance(found, CannotLook):
+            raise found
+        return found
 
     return look_once
 
@@ -136,7 +146,7 @@ class Probe:
         self.stopped = ""
         """Why the learner's code was stopped; "" if it was not."""
         self._origin = target.node.get_clock().now().nanoseconds - round(target.now * NANOSECONDS)
-        self._memory: dict[Hashable, Any] = {}
+        self.memory: dict[Hashable, Any] = {}
         self.clean_up = ExitStack()
         """Is closed when the probe is over: to take away what it has made, and put back what it has changed."""
         self._errors_before = [error for _, error in target.errors]
@@ -161,18 +171,6 @@ class Probe:
         self.target.limit_work(None)
         with suppress(Exception):  # what is gone already needs no cleaning
             self.clean_up.close()
-
-    def once(self, key: Hashable, look: Callable[[], T]) -> T:
-        """What `look()` gives, or the CannotLook that it raises: the first time it is done, from then on remembered."""
-        if key not in self._memory:
-            try:
-                self._memory[key] = look()
-            except CannotLook as reason:
-                self._memory[key] = reason
-        found = self._memory[key]
-        if isinstance(found, CannotLook):
-            raise found
-        return found
 
     # -- time --------------------------------------------------------------------------------------------------------
 
@@ -266,21 +264,12 @@ class Probe:
 
     # -- listening ---------------------------------------------------------------------------------------------------
 
+    @remembered
     def listen(self, topic: str, type_name: str) -> list[Heard]:
         """Begin to listen, if it was not done before; returns the list that fills itself.
 
         Raises CannotLook where no node publishes the topic as this type.
         """
-        return self.once(("listen", topic, type_name), lambda: self._listen(topic, type_name))
-
-    def hear(self, topic: str, type_name: str, seconds: float) -> list[Heard]:
-        """What is sent on a topic within the next seconds of robot time."""
-        heard = self.listen(topic, type_name)
-        before = len(heard)
-        self.wait(seconds)
-        return heard[before:]
-
-    def _listen(self, topic: str, type_name: str) -> list[Heard]:
         ends = self.publishers(topic)
         if not ends:
             raise CannotLook(f"no node publishes {topic}{self.like(topic, self.topics())}")
@@ -293,6 +282,13 @@ class Probe:
 
         self._subscribe(interface(type_name), topic, hear)
         return heard
+
+    def hear(self, topic: str, type_name: str, seconds: float) -> list[Heard]:
+        """What is sent on a topic within the next seconds of robot time."""
+        heard = self.listen(topic, type_name)
+        before = len(heard)
+        self.wait(seconds)
+        return heard[before:]
 
     def _subscribe(self, message_class: Any, topic: str, callback: Callable[..., None]) -> None:
         """Call `callback` with each message until the probe is over; best effort, which hears every publisher."""
@@ -322,9 +318,9 @@ class Probe:
 
     def publish(self, topic: str, type_name: str, **fields: Any) -> None:
         """Publish one message; nested fields as `linear__x=1.0`."""
-        publisher = self.once(("publisher", topic, type_name), lambda: self._publisher(topic, type_name))
-        publisher.publish(filled(interface(type_name)(), fields, type_name))
+        self._publisher(topic, type_name).publish(filled(interface(type_name)(), fields, type_name))
 
+    @remembered
     def _publisher(self, topic: str, type_name: str) -> Publisher:
         publisher = self.node.create_publisher(interface(type_name), topic, 10)
         self.clean_up.callback(self.node.destroy_publisher, publisher)
@@ -353,7 +349,7 @@ class Probe:
 
     def ask_soon(self, service: str, type_name: str, **fields: Any) -> Callable[[], Answer | None]:
         """Call a service without waiting; returns a function that gives the answer once it has come."""
-        client = self.once(("client", service, type_name), lambda: self._client(service, type_name))
+        client = self._client(service, type_name)
         request = filled(interface(type_name).Request(), fields, type_name)
         asked, answered = self.now, []
         future = client.call_async(request)
@@ -364,6 +360,7 @@ class Probe:
 
         return look
 
+    @remembered
     def _client(self, service: str, type_name: str) -> Client:
         ends = self.servers(service)
         if not ends:

@@ -3,3 +3,7 @@
 Each trouble is one symptom with several possible faults, one of which is chosen by a seed. The faults are those of
 robots: a node that was not started, a remapping, a parameter, a quality of service, a type, a bug in `robot_draft`.
 """
+
+from .faults import TROUBLES
+
+__all__ = ["TROUBLES"]

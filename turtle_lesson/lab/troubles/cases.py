@@ -1,8 +1,8 @@
-"""The troubles, and the case file of one: what a user reports of a broken system, and hints for finding the cause."""
+"""The case file of a trouble: what a user reports of a broken system, and hints for finding the cause."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
 from typing import TYPE_CHECKING, Any
@@ -11,111 +11,10 @@ from ...ros.idl.names import nearest
 from ..checks.probe import Probe
 from ..checks.registry import Expectation, expectation
 from ..checks.results import CannotLook, CheckResult, Seen
-from . import faults
-from .faults import Fault
+from .faults import TROUBLES, Fault, Trouble
 
 if TYPE_CHECKING:
     from ...session.trouble_environment import TroubleEnvironment
-
-
-@dataclass(frozen=True)
-class Trouble:
-    """A symptom and where it may come from.
-
-    Attributes:
-        name: by which `lesson.trouble(name=…)` asks for it.
-        report: what a user says.
-        hints: where to look first, then with what.
-        faults: what it may come from; names and numbers in it are drawn by chance.
-        expectations: what is so in a well system.
-    """
-
-    name: str
-    report: str
-    hints: tuple[str, str]
-    faults: Callable[[Random], Sequence[Fault]]
-    expectations: Callable[[], list[Expectation]]
-
-
-# The troubles: four of the lesson, and bugs that were found in published teaching code.
-TROUBLES: dict[str, Trouble] = {
-    trouble.name: trouble
-    for trouble in (
-        Trouble(
-            "message not found",
-            "I copied my package into a new workspace, trouble_ws, and wanted to start the status monitor there. ROS cannot "
-            "find robot_controller/msg/TurtleStatus.",
-            ("A message type is only a text at first. What has to happen before a program can use it?",
-             "Go through the three steps in order: CMakeLists.txt, colcon build, source."),
-            faults.no_message,
-            faults.message_rows,
-        ),
-        Trouble(
-            "service times out",
-            "I call /navigate_to, and no answer ever comes.",
-            ("Some node has to offer the service, under this name, and its callback has to be called.",
-             "ros2 service list, ros2 node info /navigator; then lesson.plot_sequence() after a call."),
-            faults.no_answer,
-            lambda: faults.drives((8.0, 5.5), (5.5, 5.5)),
-        ),
-        Trouble(
-            "topic silent",
-            "The dashboard stays empty, or moves in jerks. It needs ten messages a second on /robot/status.",
-            ("A topic needs a publisher, the right name, and the right rate.",
-             "ros2 topic list, ros2 topic info /robot/status, ros2 topic hz /robot/status."),
-            faults.silent,
-            faults.status_as_specified,
-        ),
-        Trouble(
-            "turtle stands still",
-            "I send the turtle to a goal, and it hardly moves, or not at all. It never gets there.",
-            ("Follow the commands from the navigator to the turtle: are they sent, on which topic, how large, how often?",
-             "ros2 node list, ros2 topic info /turtle1/cmd_vel --verbose, ros2 topic echo /turtle1/cmd_vel during a call."),
-            faults.stands,
-            faults.motion_rows,
-        ),
-        Trouble(
-            "alarm stays silent",
-            "The laser sees a wall half a metre ahead, ros2 topic echo /obstacles shows it, and the alarm does not ring.",
-            ("Both nodes run and use the same topic and type. What else must fit between two ends?",
-             "ros2 topic info /obstacles --verbose shows the quality of service of each end. The log has a warning, too."),
-            faults.deaf,
-            faults.alarm_rows,
-        ),
-        Trouble(
-            "status of another type",
-            "ros2 topic list shows /robot/status, and my display gets nothing from it, or ros2 topic echo complains.",
-            ("A name alone does not connect two ends.",
-             "ros2 topic list -t, ros2 topic info /robot/status --verbose."),
-            faults.typed_wrong,
-            faults.status_as_specified,
-        ),
-        Trouble(
-            "goal in the west",
-            "The turtle goes to every goal in the east. Sent to the west, it turns and turns.",
-            ("Which number jumps when the turtle looks due west?",
-             "ros2 topic echo /turtle1/pose --field theta, while it turns; lesson.plot_path()."),
-            faults.goal_in_the_west,
-            lambda: faults.drives((8.0, 5.5), (2.5, 5.5), (1.0, 5.4)),
-        ),
-        Trouble(
-            "status comes twice",
-            "The display for /robot/status flickers: twenty messages come a second, where ten are specified.",
-            ("If messages come twice, there are two publishers, or one callback is called twice.",
-             "ros2 topic hz /robot/status, ros2 topic info /robot/status --verbose, ros2 node list."),
-            faults.twice,
-            faults.twice_rows,
-        ),
-        Trouble(
-            "status frozen",
-            "The status comes ten times a second and says that the turtle is at (0, 0), wherever it is.",
-            ("The monitor runs, but it does not know where the turtle is. Which topic should tell it?",
-             "ros2 node info /status_monitor and ros2 topic info /turtle1/pose --verbose; its log warns, too."),
-            faults.frozen,
-            faults.status_as_specified,
-        ),
-    )
-}  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False)
@@ -152,7 +51,7 @@ class Case:
         """A hint: 1 says where to look, 2 with what, 3 nearly tells."""
         if isinstance(level, bool) or not isinstance(level, int) or not 1 <= level <= 3:
             raise ValueError(f"hints have levels from 1 to 3, got {level!r}: try case.hint(1)")
-        return (*self._trouble.hints, self._fault.hint)[level - 1]
+        return (self._trouble.where, self._trouble.how, self._fault.hint)[level - 1]
 
     @property
     def cause(self) -> str:
@@ -179,7 +78,7 @@ def open_case(
     chance = Random(f"trouble {number}")
     trouble = TROUBLES[chance.choice(sorted(TROUBLES))] if name is None else _named(name)
     chance = Random(f"{trouble.name} {number}")
-    fault = chance.choice(trouble.faults(chance))
+    fault = chance.choice(list(trouble.faults(chance)))
     environment.clear()
     if fault.workspace:
         environment.make_workspace(fault.workspace)

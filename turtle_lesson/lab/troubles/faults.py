@@ -1,9 +1,11 @@
-"""The faults behind each symptom, one of which is chosen by chance, and what a well system shows."""
+"""The troubles: each a symptom, what a well system shows, and the faults behind it, one of which is chosen by chance."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -11,6 +13,7 @@ from typing import Any
 from ..checks import navigation as nav
 from ..checks.assertions import node, publishes, rate, subscribes
 from ..checks.page_04 import STATUS, STATUS_TYPE
+from ..checks.page_05 import SCAN_TYPE
 from ..checks.probe import Probe, interface, remembered
 from ..checks.registry import Expectation, expectation
 from ..checks.results import CannotLook, Seen
@@ -54,205 +57,24 @@ DRAFT = "robot_draft"
 OTHERS = (MONITOR, DETECTOR)
 
 
-def no_message(chance: Random) -> list[Fault]:
-    """A message that no program can use."""
-    return [
-        Fault(
-            "TurtleStatus.msg was not named in CMakeLists.txt, so nothing was generated from it.",
-            "Read trouble_ws/src/robot_controller/CMakeLists.txt: which files does rosidl_generate_interfaces name?",
-            workspace="not in CMakeLists.txt",
-        ),
-        Fault(
-            "The package was written but never built.",
-            "There is a src folder in trouble_ws. Is there an install folder?",
-            workspace="not built",
-        ),
-        Fault(
-            "The package was built, but its setup file was not sourced.",
-            "All is built in trouble_ws/install. Has this terminal read its setup file?",
-            workspace="not sourced",
-        ),
-    ]
+@dataclass(frozen=True)
+class Trouble:
+    """A symptom and where it may come from.
 
+    Attributes:
+        name: by which `lesson.trouble(name=…)` asks for it.
+        report: what a user says.
+        where, how: the hints: where to look first, then with what.
+        expectations: what is so in a well system.
+        faults: what it may come from; names and numbers in it are drawn by chance.
+    """
 
-def message_rows() -> list[Expectation]:
-    """Both types of the package in trouble_ws can be used, and the status comes."""
-    return [
-        found_in("trouble_ws", "robot_controller"),
-        importable(STATUS_TYPE),
-        importable(nav.NAVIGATE_TYPE),
-        *status_as_specified(),
-    ]
-
-
-def no_answer(chance: Random) -> list[Fault]:
-    """A service that is never answered."""
-    wrong = chance.choice(("/navigate", "/navigation/navigate_to", "/go_to", "/robot/navigate_to"))
-    return [
-        Fault("The navigator did not run.", "Compare ros2 node list with the nodes that should be there.", OTHERS),
-        Fault(
-            f"The navigator offered its service as {wrong}: it was started with a remapping.",
-            "The navigator runs. Under which name does it offer its service? ros2 node info /navigator",
-            (Program("navigator", remaps={"/navigate_to": wrong}), *OTHERS),
-        ),
-        Fault(
-            "A callback of the navigator waited for a message that only another of its callbacks could have brought: "
-            "its one thread was taken forever.",
-            'lesson.plot_timeline("/navigator"): which callback never ends?',
-            (Program("navigator_waiting", DRAFT, "navigator"), *OTHERS),
-        ),
-    ]
-
-
-def silent(chance: Random) -> list[Fault]:
-    """A status that does not come, or too rarely."""
-    wrong = chance.choice(("/status", "/robot_status", "/robot/state", "/turtle1/status"))
-    rate = chance.choice((1, 2))
-    rest = (NAVIGATOR, DETECTOR)
-    return [
-        Fault("The status monitor did not run.", "Compare ros2 node list with the nodes that should be there.", rest),
-        Fault(
-            f"The status monitor published on {wrong}: it was started with a remapping.",
-            "The status monitor runs. On which topic does it publish? ros2 node info /status_monitor",
-            (Program("status_monitor", remaps={STATUS: wrong}), *rest),
-        ),
-        Fault(
-            f"The parameter publish_rate was {rate}, where 10 is specified.",
-            "Messages come, but too rarely. ros2 param get /status_monitor publish_rate",
-            (Program("status_monitor", parameters={"publish_rate": rate}), *rest),
-        ),
-    ]
-
-
-def stands(chance: Random) -> list[Fault]:
-    """A turtle that gets nowhere."""
-    wrong = chance.choice(("/cmd_vel", "/turtle/cmd_vel", "/turtle2/cmd_vel", "/turtle1/command"))
-    speed = chance.choice((0.01, 0.02, 0.05))
-    period = chance.choice((4.0, 5.0, 8.0))
-    return [
-        Fault(
-            "The simulator did not run.",
-            "Which node should obey /turtle1/cmd_vel, and is it there? ros2 node list",
-            (NAVIGATOR, *OTHERS),
-            simulator=False,
-        ),
-        Fault(
-            f"The navigator published its commands on {wrong}: it was started with a remapping.",
-            "Compare the topics in ros2 node info /navigator and ros2 node info /turtlesim.",
-            (Program("navigator", remaps={"/turtle1/cmd_vel": wrong}), *OTHERS),
-        ),
-        Fault(
-            f"The speed limiter let no more than {speed} m/s through: too little to get anywhere in time.",
-            "Commands arrive. How large are they, and which node sends them? ros2 param dump /speed_limiter",
-            (*_limited({"max_speed": speed}), *OTHERS),
-        ),
-        Fault(
-            f"The speed limiter let a command through every {period:g} s, and the simulator stops a turtle whose last "
-            "command is a second old.",
-            "How often do commands come, and from which node? ros2 param dump /speed_limiter",
-            (*_limited({"command_period": period}), *OTHERS),
-        ),
-    ]
-
-
-def _limited(parameters: dict[str, float]) -> tuple[Program, Program]:
-    return (
-        Program("navigator", remaps={"/turtle1/cmd_vel": "/wanted_vel"}),
-        Program("speed_limiter", DRAFT, parameters=parameters),
-    )
-
-
-def motion_rows() -> list[Expectation]:
-    """Simulator and navigator are there, and goals are reached."""
-    return [
-        there("/turtlesim", "ros2 run turtlesim turtlesim_node"),
-        *drives((8.0, 5.5), (5.5, 5.5)),
-        commands_steady(5.5, 5.5),
-    ]
-
-
-def deaf(chance: Random) -> list[Fault]:
-    """Two ends whose qualities of service do not fit."""
-    alarm = Program("obstacle_alarm", DRAFT, parameters={"reliability": "reliable"})
-    rest = chance.sample((NAVIGATOR, MONITOR), 2)
-    return [
-        Fault(
-            "The laser sends with best effort and the alarm asked for reliable delivery: such ends never connect.",
-            "ros2 param get /obstacle_alarm reliability. A laser offers best_effort; the alarm reads its parameter at start.",
-            (Program("laser", DRAFT), alarm, *rest),
-        )
-    ]
-
-
-def alarm_rows() -> list[Expectation]:
-    """The alarm rings for each scan."""
-    scan = "sensor_msgs/msg/LaserScan"
-    ends = [publishes("/obstacles", scan, by="/laser"), subscribes("/obstacles", scan, by="/obstacle_alarm")]
-    step = "ros2 topic info /obstacles --verbose: do both ends fit, name, type and quality of service?"
-    ringing = advised(rate("/alarm", "std_msgs/msg/Float32", 5.0), step)
-    laser, alarm = "ros2 run robot_draft laser", "ros2 run robot_draft obstacle_alarm"
-    return [there("/laser", laser), there("/obstacle_alarm", alarm), *ends, ringing]
-
-
-def typed_wrong(chance: Random) -> list[Fault]:
-    """A topic of two types, or of the wrong one."""
-    twin = chance.random() < 0.5
-    name = chance.choice(("status_text", "battery", "reporter"))
-    also = (
-        (Program("status_text", DRAFT, name), MONITOR) if twin else (Program("status_text", DRAFT, "status_monitor"),)
-    )
-    return [
-        Fault(
-            f"A node published /robot/status as std_msgs/msg/String, where {STATUS_TYPE} is specified.",
-            "ros2 topic info /robot/status --verbose: two ends of different types never connect.",
-            (*also, NAVIGATOR, DETECTOR),
-        )
-    ]
-
-
-def goal_in_the_west(chance: Random) -> list[Fault]:
-    """An angle difference that is not wrapped."""
-    return [
-        Fault(
-            "The navigator subtracted two angles and did not bring the difference into -180° to 180°: where the heading jumps "
-            "from 180° to -180°, it turned the long way round, forever.",
-            "Call it for a goal due west and look at lesson.plot_path(). ros2 param list /navigator",
-            (Program("navigator_draft", DRAFT, "navigator"), *chance.sample(OTHERS, 2)),
-        )
-    ]
-
-
-def twice(chance: Random) -> list[Fault]:
-    """Everything comes twice."""
-    return [
-        Fault(
-            "The node made its timer twice, so each tick was two calls of its callback.",
-            'lesson.plot_timeline("/status_monitor"): how often is the callback called?',
-            (Program("status_twice", DRAFT, "status_monitor"), NAVIGATOR, DETECTOR),
-        ),
-        Fault(
-            "The status monitor ran twice, under one name.",
-            "ros2 node list warns of it. jobs, and the lines of the launch, tell what runs and its pid.",
-            (MONITOR, NAVIGATOR, DETECTOR, MONITOR),
-        ),
-    ]
-
-
-def twice_rows() -> list[Expectation]:
-    """The status comes once, and the battery falls as specified."""
-    return [*status_as_specified(), battery_falls()]
-
-
-def frozen(chance: Random) -> list[Fault]:
-    """A monitor that hears nothing."""
-    wrong = chance.choice(("/pose", "/turtle/pose", "/turtle2/pose", "/turtle1/position"))
-    return [
-        Fault(
-            f"The status monitor heard {wrong}, where no node publishes: it was started with a remapping.",
-            "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?",
-            (Program("status_monitor", remaps={"/turtle1/pose": wrong}), NAVIGATOR, DETECTOR),
-        )
-    ]
+    name: str
+    report: str
+    where: str
+    how: str
+    expectations: Callable[[], list[Expectation]]
+    faults: Callable[[Random], Iterator[Fault]]
 
 
 # -- what a well system shows ------------------------------------------------------------------------------------------
@@ -398,3 +220,244 @@ def battery_falls(probe: Probe) -> Seen:
     fall = (first.message.battery - last.message.battery) / (last.at - first.at)
     step = 'lesson.plot_timeline("/status_monitor"): how often is each callback called? ros2 node list: how many?'
     return Seen(abs(fall - 1.0) < 0.1, f"it falls {number(fall, 1)} % a second", step)
+
+
+# -- the troubles: four of the lesson, and bugs that were found in published teaching code --------------------------------
+
+# A function that yields the faults becomes a trouble by what stands above it.
+
+
+@partial(
+    Trouble,
+    "message not found",
+    "I copied my package into a new workspace, trouble_ws, and wanted to start the status monitor there. ROS cannot "
+    "find robot_controller/msg/TurtleStatus.",
+    "A message type is only a text at first. What has to happen before a program can use it?",
+    "Go through the three steps in order: CMakeLists.txt, colcon build, source.",
+    lambda: [
+        found_in("trouble_ws", "robot_controller"),
+        importable(STATUS_TYPE),
+        importable(nav.NAVIGATE_TYPE),
+        *status_as_specified(),
+    ],
+)
+def no_message(chance: Random) -> Iterator[Fault]:
+    yield Fault(
+        "TurtleStatus.msg was not named in CMakeLists.txt, so nothing was generated from it.",
+        "Read trouble_ws/src/robot_controller/CMakeLists.txt: which files does rosidl_generate_interfaces name?",
+        workspace="not in CMakeLists.txt",
+    )
+    yield Fault(
+        "The package was written but never built.",
+        "There is a src folder in trouble_ws. Is there an install folder?",
+        workspace="not built",
+    )
+    yield Fault(
+        "The package was built, but its setup file was not sourced.",
+        "All is built in trouble_ws/install. Has this terminal read its setup file?",
+        workspace="not sourced",
+    )
+
+
+@partial(
+    Trouble,
+    "service times out",
+    "I call /navigate_to, and no answer ever comes.",
+    "Some node has to offer the service, under this name, and its callback has to be called.",
+    "ros2 service list, ros2 node info /navigator; then lesson.plot_sequence() after a call.",
+    lambda: drives((8.0, 5.5), (5.5, 5.5)),
+)
+def no_answer(chance: Random) -> Iterator[Fault]:
+    wrong = chance.choice(("/navigate", "/navigation/navigate_to", "/go_to", "/robot/navigate_to"))
+    yield Fault("The navigator did not run.", "Compare ros2 node list with the nodes that should be there.", OTHERS)
+    yield Fault(
+        f"The navigator offered its service as {wrong}: it was started with a remapping.",
+        "The navigator runs. Under which name does it offer its service? ros2 node info /navigator",
+        (Program("navigator", remaps={"/navigate_to": wrong}), *OTHERS),
+    )
+    yield Fault(
+        "A callback of the navigator waited for a message that only another of its callbacks could have brought: "
+        "its one thread was taken forever.",
+        'lesson.plot_timeline("/navigator"): which callback never ends?',
+        (Program("navigator_waiting", DRAFT, "navigator"), *OTHERS),
+    )
+
+
+@partial(
+    Trouble,
+    "topic silent",
+    "The dashboard stays empty, or moves in jerks. It needs ten messages a second on /robot/status.",
+    "A topic needs a publisher, the right name, and the right rate.",
+    "ros2 topic list, ros2 topic info /robot/status, ros2 topic hz /robot/status.",
+    status_as_specified,
+)
+def silent(chance: Random) -> Iterator[Fault]:
+    wrong = chance.choice(("/status", "/robot_status", "/robot/state", "/turtle1/status"))
+    rate = chance.choice((1, 2))
+    rest = (NAVIGATOR, DETECTOR)
+    yield Fault("The status monitor did not run.", "Compare ros2 node list with the nodes that should be there.", rest)
+    yield Fault(
+        f"The status monitor published on {wrong}: it was started with a remapping.",
+        "The status monitor runs. On which topic does it publish? ros2 node info /status_monitor",
+        (Program("status_monitor", remaps={STATUS: wrong}), *rest),
+    )
+    yield Fault(
+        f"The parameter publish_rate was {rate}, where 10 is specified.",
+        "Messages come, but too rarely. ros2 param get /status_monitor publish_rate",
+        (Program("status_monitor", parameters={"publish_rate": rate}), *rest),
+    )
+
+
+@partial(
+    Trouble,
+    "turtle stands still",
+    "I send the turtle to a goal, and it hardly moves, or not at all. It never gets there.",
+    "Follow the commands from the navigator to the turtle: are they sent, on which topic, how large, how often?",
+    "ros2 node list, ros2 topic info /turtle1/cmd_vel --verbose, ros2 topic echo /turtle1/cmd_vel during a call.",
+    lambda: [
+        there("/turtlesim", "ros2 run turtlesim turtlesim_node"),
+        *drives((8.0, 5.5), (5.5, 5.5)),
+        commands_steady(5.5, 5.5),
+    ],
+)
+def stands(chance: Random) -> Iterator[Fault]:
+    wrong = chance.choice(("/cmd_vel", "/turtle/cmd_vel", "/turtle2/cmd_vel", "/turtle1/command"))
+    speed = chance.choice((0.01, 0.02, 0.05))
+    period = chance.choice((4.0, 5.0, 8.0))
+    yield Fault(
+        "The simulator did not run.",
+        "Which node should obey /turtle1/cmd_vel, and is it there? ros2 node list",
+        (NAVIGATOR, *OTHERS),
+        simulator=False,
+    )
+    yield Fault(
+        f"The navigator published its commands on {wrong}: it was started with a remapping.",
+        "Compare the topics in ros2 node info /navigator and ros2 node info /turtlesim.",
+        (Program("navigator", remaps={"/turtle1/cmd_vel": wrong}), *OTHERS),
+    )
+    yield Fault(
+        f"The speed limiter let no more than {speed} m/s through: too little to get anywhere in time.",
+        "Commands arrive. How large are they, and which node sends them? ros2 param dump /speed_limiter",
+        (*_limited({"max_speed": speed}), *OTHERS),
+    )
+    yield Fault(
+        f"The speed limiter let a command through every {period:g} s, and the simulator stops a turtle whose last "
+        "command is a second old.",
+        "How often do commands come, and from which node? ros2 param dump /speed_limiter",
+        (*_limited({"command_period": period}), *OTHERS),
+    )
+
+
+def _limited(parameters: dict[str, float]) -> tuple[Program, Program]:
+    return (
+        Program("navigator", remaps={"/turtle1/cmd_vel": "/wanted_vel"}),
+        Program("speed_limiter", DRAFT, parameters=parameters),
+    )
+
+
+@partial(
+    Trouble,
+    "alarm stays silent",
+    "The laser sees a wall half a metre ahead, ros2 topic echo /obstacles shows it, and the alarm does not ring.",
+    "Both nodes run and use the same topic and type. What else must fit between two ends?",
+    "ros2 topic info /obstacles --verbose shows the quality of service of each end. The log has a warning, too.",
+    lambda: [
+        there("/laser", "ros2 run robot_draft laser"),
+        there("/obstacle_alarm", "ros2 run robot_draft obstacle_alarm"),
+        publishes("/obstacles", SCAN_TYPE, by="/laser"),
+        subscribes("/obstacles", SCAN_TYPE, by="/obstacle_alarm"),
+        advised(
+            rate("/alarm", "std_msgs/msg/Float32", 5.0),
+            "ros2 topic info /obstacles --verbose: do both ends fit, name, type and quality of service?",
+        ),
+    ],
+)
+def deaf(chance: Random) -> Iterator[Fault]:
+    alarm = Program("obstacle_alarm", DRAFT, parameters={"reliability": "reliable"})
+    rest = chance.sample((NAVIGATOR, MONITOR), 2)
+    yield Fault(
+        "The laser sends with best effort and the alarm asked for reliable delivery: such ends never connect.",
+        "ros2 param get /obstacle_alarm reliability. A laser offers best_effort; the alarm reads its parameter at start.",
+        (Program("laser", DRAFT), alarm, *rest),
+    )
+
+
+@partial(
+    Trouble,
+    "status of another type",
+    "ros2 topic list shows /robot/status, and my display gets nothing from it, or ros2 topic echo complains.",
+    "A name alone does not connect two ends.",
+    "ros2 topic list -t, ros2 topic info /robot/status --verbose.",
+    status_as_specified,
+)
+def typed_wrong(chance: Random) -> Iterator[Fault]:
+    twin = chance.random() < 0.5
+    name = chance.choice(("status_text", "battery", "reporter"))
+    text = Program("status_text", DRAFT, name if twin else "status_monitor")
+    also = (text, MONITOR) if twin else (text,)
+    yield Fault(
+        f"A node published /robot/status as std_msgs/msg/String, where {STATUS_TYPE} is specified.",
+        "ros2 topic info /robot/status --verbose: two ends of different types never connect.",
+        (*also, NAVIGATOR, DETECTOR),
+    )
+
+
+@partial(
+    Trouble,
+    "goal in the west",
+    "The turtle goes to every goal in the east. Sent to the west, it turns and turns.",
+    "Which number jumps when the turtle looks due west?",
+    "ros2 topic echo /turtle1/pose --field theta, while it turns; lesson.plot_path().",
+    lambda: drives((8.0, 5.5), (2.5, 5.5), (1.0, 5.4)),
+)
+def goal_in_the_west(chance: Random) -> Iterator[Fault]:
+    yield Fault(
+        "The navigator subtracted two angles and did not bring the difference into -180° to 180°: where the heading jumps "
+        "from 180° to -180°, it turned the long way round, forever.",
+        "Call it for a goal due west and look at lesson.plot_path(). ros2 param list /navigator",
+        (Program("navigator_draft", DRAFT, "navigator"), *chance.sample(OTHERS, 2)),
+    )
+
+
+@partial(
+    Trouble,
+    "status comes twice",
+    "The display for /robot/status flickers: twenty messages come a second, where ten are specified.",
+    "If messages come twice, there are two publishers, or one callback is called twice.",
+    "ros2 topic hz /robot/status, ros2 topic info /robot/status --verbose, ros2 node list.",
+    lambda: [*status_as_specified(), battery_falls()],
+)
+def twice(chance: Random) -> Iterator[Fault]:
+    yield Fault(
+        "The node made its timer twice, so each tick was two calls of its callback.",
+        'lesson.plot_timeline("/status_monitor"): how often is the callback called?',
+        (Program("status_twice", DRAFT, "status_monitor"), NAVIGATOR, DETECTOR),
+    )
+    yield Fault(
+        "The status monitor ran twice, under one name.",
+        "ros2 node list warns of it. jobs, and the lines of the launch, tell what runs and its pid.",
+        (MONITOR, NAVIGATOR, DETECTOR, MONITOR),
+    )
+
+
+@partial(
+    Trouble,
+    "status frozen",
+    "The status comes ten times a second and says that the turtle is at (0, 0), wherever it is.",
+    "The monitor runs, but it does not know where the turtle is. Which topic should tell it?",
+    "ros2 node info /status_monitor and ros2 topic info /turtle1/pose --verbose; its log warns, too.",
+    status_as_specified,
+)
+def frozen(chance: Random) -> Iterator[Fault]:
+    wrong = chance.choice(("/pose", "/turtle/pose", "/turtle2/pose", "/turtle1/position"))
+    yield Fault(
+        f"The status monitor heard {wrong}, where no node publishes: it was started with a remapping.",
+        "ros2 node info /status_monitor: which topic does it hear, and which node publishes that one?",
+        (Program("status_monitor", remaps={"/turtle1/pose": wrong}), NAVIGATOR, DETECTOR),
+    )
+
+
+TROUBLES: dict[str, Trouble] = {
+    each.name: each
+    for each in (no_message, no_answer, silent, stands, deaf, typed_wrong, goal_in_the_west, twice, frozen)
+}
