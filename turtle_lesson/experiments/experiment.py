@@ -12,21 +12,18 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..lab.words import count, did_you_mean, enumerated
+from ..lab.words import count, suggestion
 from ..ros.sim.strand import running_strand
 from ..session.lesson import check_world
 from . import one_run
 from .one_run import OK, OWN, PLAIN, Ending, ExperimentError, Run, name_of, plain
 from .payload import setting_for
-from .pools import LocalPool, cores
+from .pools import ClusterPool, LocalPool, cores
 from .replay import Replay
 from .results import Results, described, endings_of
 from .shrink import Smallest
-
-if TYPE_CHECKING:
-    from .cluster import ClusterPool
 
 MOST_JOBS = 512
 
@@ -92,14 +89,8 @@ def experiment(
     about = described(function, setting, world)
     known = [] if resume is None else endings_of(resume, runs, about)
     smallest = None
-    pool: LocalPool | ClusterPool
-    if client is None:
-        pool = LocalPool(setting, min(jobs or defaults.get().jobs or cores(), max(len(runs) - len(known), 1)))
-    else:
-        from .cluster import ClusterPool  # here, since Dask is optional, and takes long to import
-
-        pool = ClusterPool(setting, client)
-    with closing(pool):
+    processes = min(jobs or defaults.get().jobs or cores(), max(len(runs) - len(known), 1))
+    with closing(LocalPool(setting, processes) if client is None else ClusterPool(setting, client)) as pool:
         if until is None:
             endings = known + carry_out(pool, left_of(runs, known))
         else:
@@ -241,35 +232,32 @@ def _check_place() -> None:
 def _check_function(function: Callable[..., Any], parameters: dict[str, Any]) -> None:
     if not callable(function):
         raise ExperimentError(f"an experiment needs a function such as `def drive(lesson): …`, got {function!r:.80}")
-    name, kinds = name_of(function), inspect.Parameter
-    accepted = list(inspect.signature(function).parameters.values())
-    if not accepted or accepted[0].kind not in (
-        kinds.POSITIONAL_ONLY,
-        kinds.POSITIONAL_OR_KEYWORD,
-        kinds.VAR_POSITIONAL,
-    ):
-        raise ExperimentError(f"{name} must take the lesson as its first parameter: def {name}(lesson): …")
-    known = [each.name for each in accepted[1:] if each.kind in (kinds.POSITIONAL_OR_KEYWORD, kinds.KEYWORD_ONLY)]
+    name, signature, kinds = name_of(function), inspect.signature(function), inspect.Parameter
+    accepted = list(signature.parameters.values())[1:]
+    known = [each.name for each in accepted if each.kind in (kinds.POSITIONAL_OR_KEYWORD, kinds.KEYWORD_ONLY)]
     own = [each for each in known if each in {*OWN, *inspect.signature(experiment).parameters}]
     if own:
         raise ExperimentError(
             f"{name} has a parameter {own[0]!r}, as experiment() or its table has: give it another name"
         )
-    if accepted[-1].kind is not kinds.VAR_KEYWORD:
+    if not any(each.kind is kinds.VAR_KEYWORD for each in accepted):
         check_names(name, parameters, known)
-    for parameter in accepted[1:]:
+    for parameter in accepted:
         if parameter.name in known and parameter.default is kinds.empty and parameter.name not in parameters:
             raise ExperimentError(
                 f"{name} needs a value of {parameter.name!r}: add {parameter.name}=[…] with the values to try"
             )
+    try:
+        signature.bind(None, **parameters)
+    except TypeError:
+        raise ExperimentError(f"{name} must take the lesson as its first parameter: def {name}(lesson): …") from None
 
 
 def check_names(function: str, parameters: Iterable[str], known: list[str]) -> None:
     """Raise ExperimentError for a parameter that the function of this name does not have."""
     for each in parameters:
         if each not in known:
-            there = did_you_mean(each, known) or f"It has {enumerated(known)}."
-            raise ExperimentError(f"{function} has no parameter {each!r}. {there}")
+            raise ExperimentError(f"{function} has no parameter {each!r}. {suggestion(each, known)}")
 
 
 def _is_plain(value: Any) -> bool:

@@ -63,7 +63,7 @@ def pickled(function: Callable[..., Any]) -> bytes:
             return cloudpickle.dumps(function)
         except Exception as error:
             why = f"{type(error).__name__}: {error}"
-            for name, value in _used(function):
+            for name, value in _explored(function)[1]:
                 try:
                     cloudpickle.dumps(value)
                 except Exception as its_error:
@@ -73,8 +73,9 @@ def pickled(function: Callable[..., Any]) -> bytes:
 
 def hash_of(function: Callable[..., Any]) -> str:
     """A hash of a function's source, and that of the learner's functions, classes and plain values which it uses."""
-    texts = sorted(_source(each) for each in _own(function))
-    values = sorted(f"{name}={value!r}" for name, value in _used(function) if isinstance(value, PLAIN))
+    own, used = _explored(function)
+    texts = sorted(map(_source, own))
+    values = sorted(f"{name}={value!r}" for name, value in used if isinstance(value, PLAIN))
     if isinstance(function, partial):
         values.append(repr((function.args, function.keywords)))
     return hashlib.sha256("\n".join(texts + values).encode()).hexdigest()[:16]
@@ -82,7 +83,7 @@ def hash_of(function: Callable[..., Any]) -> str:
 
 def sources_of(function: Callable[..., Any]) -> dict[str, str]:
     """The texts of the cells and files that a function comes from: tracebacks show lines of them."""
-    names = {each.__code__.co_filename for each in _own(function) if isinstance(each, FunctionType)}
+    names = {each.__code__.co_filename for each in _explored(function)[0] if isinstance(each, FunctionType)}
     return {name: "".join(lines) for name in sorted(names) if (lines := linecache.getlines(name))}
 
 
@@ -94,22 +95,19 @@ def _source(thing: Any) -> str:
         return repr(thing) if code is None else f"{code.co_name} {code.co_code.hex()} {code.co_names}"
 
 
-def _own(function: Callable[..., Any]) -> list[Any]:
-    """The function, and the functions and classes of the learner's own that it uses, directly or not."""
+def _explored(function: Callable[..., Any]) -> tuple[list[Any], list[tuple[str, Any]]]:
+    """The function, with the functions and classes of the learner's own that it uses, directly or not; by name, what all of
+    these refer to."""
     first = inspect.unwrap(function.func if isinstance(function, partial) else function)
-    found: list[Any] = [first if isinstance(first, (FunctionType, type)) else type(first)]
-    for each in found:  # which grows
-        for _, value in _names_in(each):
+    own: list[Any] = [first if isinstance(first, (FunctionType, type)) else type(first)]
+    used: list[tuple[str, Any]] = []
+    for each in own:  # which grows
+        for name, value in _names_in(each):
+            used.append((name, value))
             value = inspect.unwrap(value) if callable(value) else value
-            if isinstance(value, (FunctionType, type)) and _is_own(value) and not any(value is one for one in found):
-                found.append(value)
-    return found
-
-
-def _used(function: Callable[..., Any]) -> Iterator[tuple[str, Any]]:
-    """The names by which a function, and those of the learner's own that it uses, refer to things outside; and the things."""
-    for each in _own(function):
-        yield from _names_in(each)
+            if isinstance(value, (FunctionType, type)) and _is_own(value) and not any(value is one for one in own):
+                own.append(value)
+    return own, used
 
 
 def _names_in(thing: Any) -> Iterator[tuple[str, Any]]:
@@ -143,17 +141,17 @@ def _travelling(function: Callable[..., Any]) -> Iterator[None]:
     """Within this block cloudpickle sends modules beside the notebook or the function's file as it sends cells: as they are."""
     import cloudpickle
 
-    things = [*_own(function), *(value for _, value in _used(function) if isinstance(value, ModuleType))]
-    modules = {each if isinstance(each, ModuleType) else sys.modules.get(each.__module__) for each in things}
+    own, used = _explored(function)
+    modules = {sys.modules.get(each.__module__) for each in own}
+    modules |= {value for _, value in used if isinstance(value, ModuleType)}
     beside = [home(), *(Path(name).parent for name in sources_of(function))]
     chosen = []
     for module in modules:
         file = getattr(module, "__file__", None)
-        if module is None or module.__name__ == "__main__" or file is None or not is_learners(file):
+        if module is None or file is None or module.__name__ == "__main__" or not is_learners(file):
             continue
-        if any(Path(file).is_relative_to(folder) for folder in beside) and not Path(file).is_relative_to(
-            home() / "workspace"
-        ):
+        place = Path(file)
+        if any(map(place.is_relative_to, beside)) and not place.is_relative_to(home() / "workspace"):
             chosen.append(module)
     for module in chosen:
         cloudpickle.register_pickle_by_value(module)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..lab.words import did_you_mean, enumerated, shortened
+from ..lab.words import shortened, suggestion
 from ..ros.runtime import files
 from .one_run import ExperimentError, plain
 
@@ -63,8 +63,7 @@ class Table:
     def check(self, column: str) -> None:
         """Raise ExperimentError, which is a ValueError, if there is no such column."""
         if column not in self.columns:
-            there = did_you_mean(str(column), self.columns) or f"There are {enumerated(self.columns)}."
-            raise ExperimentError(f"there is no column {column!r}. {there}")
+            raise ExperimentError(f"there is no column {column!r}. {suggestion(str(column), self.columns)}")
 
     def __repr__(self) -> str:
         head, rows = self._shown()

@@ -94,8 +94,8 @@ def _outcome(future: Future) -> Seen:
 @contextmanager
 def _connected(address: str) -> Iterator[Client]:
     """A client of the cluster. What experiments say of a cluster that cannot be used is raised as PageError."""
-    from ..experiments.cluster import connected
     from ..experiments.one_run import ExperimentError
+    from ..experiments.pools import connected
 
     for name in ("distributed", "distributed.client"):  # what goes wrong is said in the reports
         logging.getLogger(name).setLevel(logging.CRITICAL)
@@ -113,7 +113,7 @@ def _connected(address: str) -> Iterator[Client]:
 
 def _check_workers(client: Client, lesson: str) -> None:
     """Raise PageError unless there are workers, all with this lesson."""
-    from ..experiments.cluster import answers
+    from ..experiments.pools import answers
 
     found_there = answers(client, lambda: import_module(HERE).own_lesson(), CONNECTING)
     own, wrong = own_lesson()[0], []

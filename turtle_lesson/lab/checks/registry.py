@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Concatenate, ParamSpec
 
 from ...learner.story import PAGES
 from ...ros.sim.errors import learners_frames
-from ..words import did_you_mean, enumerated
+from ..words import did_you_mean, suggestion
 from .probe import Probe
 from .results import (
     BAD,
@@ -135,8 +135,7 @@ def find(name: object) -> Check:
     known = {each.name: each for each in all_checks()}
     if isinstance(name, str) and name in known:
         return known[name]
-    hint = did_you_mean(name, known) if isinstance(name, str) else ""
-    raise ValueError(f"there is no check {name!r}. {hint or f'There are {enumerated(known)}.'}")
+    raise ValueError(f"there is no check {name!r}. {suggestion(str(name), known)}")
 
 
 ODD = "Run the cells from the set-up cell on again; if it stays, compare your interfaces and types with the page's."
