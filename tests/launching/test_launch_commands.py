@@ -132,6 +132,14 @@ def test_ctrl_c_ends_a_small_command_without_a_word(
     ]
 
 
+def test_sleep_needs_a_number_of_seconds(
+    begin: Launch, world: World, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    begin("ExecuteProcess(cmd=['sleep', 'inf'], output='screen'),")
+    run(world, 1)
+    assert console(capsys, tmp_path)[0] == "[sleep-1] sleep: invalid time interval 'inf'"
+
+
 def test_ros2_run_is_the_program_itself(
     world: World, begin: Launch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

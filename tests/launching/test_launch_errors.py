@@ -261,6 +261,9 @@ def test_imports_of_what_is_not_here(tmp_path: Path, line: str, said: str) -> No
             "DeclareLaunchArgument('mode', default_value='a', choices=['a', 'b']),",
             'Argument "mode" provided value "c"',
         ),
+        ("TimerAction(period=-1.0, actions=[]),", "a launch can wait for a number of seconds from 0 up, not for -1.0"),
+        ("TimerAction(period=float('nan'), actions=[]),", "a launch can wait for a number of seconds from 0 up"),
+        (node(output_format="'{what} {line}'"), "output_format='{what} {line}' cannot be filled in: KeyError('what')"),
         ("LogInfo(msg=FindPackageShare('turtlesm')),", "\"package 'turtlesm' not found, searching: ["),
     ],
 )

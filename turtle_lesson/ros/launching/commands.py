@@ -133,7 +133,7 @@ def _main(words: list[str]) -> Main:
 def _sleep(words: Sequence[str]) -> int:
     try:
         time.sleep(sum(float(word.removesuffix("s")) for word in words))
-    except ValueError:
+    except (ValueError, OverflowError):
         print(f"sleep: invalid time interval {' '.join(words)!r}", file=sys.stderr)
         return 1
     return 0

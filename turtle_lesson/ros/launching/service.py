@@ -6,6 +6,7 @@ a description with an error in it starts nothing. Events are handled one after t
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
@@ -120,7 +121,9 @@ class LaunchService:
                 process.terminate_later()
 
     def call_later(self, seconds: float, function: Callable[[], None]) -> None:
-        """Have a function called after some robot time, within this launch."""
+        """Have a function called after some robot time, within this launch. Raises ValueError if there is no such time."""
+        if not 0 <= seconds < math.inf:
+            raise ValueError(f"a launch can wait for a number of seconds from 0 up, not for {seconds}")
 
         def due() -> None:
             self._timers -= 1
@@ -346,7 +349,7 @@ def show_arguments(world: World, path: Path | str) -> str:
     """What `ros2 launch … --show-args` prints. Raises LaunchError if the file cannot be loaded."""
     parts = ["Arguments (pass arguments as '<name>:=<value>'):"]
     for argument in launch_arguments(world, path):
-        part = f"    '{argument.name}':\n{textwrap.indent(argument.description, '        ')}"
+        part = f"    '{argument.name}':\n{textwrap.indent(str(argument.description), '        ')}"
         default = argument.default_value
         parts.append(part + ("" if default is None else f"\n        (default: {described(default)})"))
     return "\n\n".join(parts if len(parts) > 1 else [*parts, "  No arguments."])

@@ -168,6 +168,11 @@ class ExecuteProcess(Action):
         self.prefix_left_out = PurePath(before[0]).name if before else ""  # such as a terminal or a debugger
         self.cmd = [text_of(context, word) for word in self._words]
         self.name = f"{text_of(context, self._name) or os.path.basename(self.cmd[0])}-{next(context._host.numbers)}"
+        try:
+            self.output_format.format(line="", this=self)
+        except (AttributeError, LookupError, ValueError) as error:
+            what = f"output_format={self.output_format!r} cannot be filled in: {error!r}"
+            raise explained(ValueError(what), "Write output_format='[{this.name}] {line}'.") from None
         alone = context.environment if self._env is None else _variables(context, self._env)
         self._program = self._find_program(context)
         self._respawns = evaluate_condition_expression(context, self.__respawn)
