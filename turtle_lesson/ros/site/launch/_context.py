@@ -73,7 +73,6 @@ class LaunchContext:
         """What carries the launch out; a context in which substitutions are merely performed has none."""
         self._configurations_read: set[str] = set()
         self._output_override: str | None = None
-        self._include_depth = 0
         self._event_queue: deque[Event] = deque()
         self._event_handlers: deque[EventHandler] = deque()
         self._locals: dict[str, Any] = {}
@@ -82,10 +81,6 @@ class LaunchContext:
     def locals(self) -> SimpleNamespace:
         """Names that handlers and includes set, such as `event` and `current_launch_file_path`."""
         return SimpleNamespace(**self._locals)
-
-    def get_locals_as_dict(self) -> dict[str, Any]:
-        """The same as a dictionary."""
-        return dict(self._locals)
 
     def extend_locals(self, extensions: dict[str, Any]) -> None:
         """Set names until the current handler or include is done."""

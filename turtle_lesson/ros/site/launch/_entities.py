@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
 from turtle_lesson.ros.sim.errors import is_ours
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .actions import DeclareLaunchArgument, IncludeLaunchDescription
     from .frontend import Entity
 
-    ArgumentWithIncludes = tuple[DeclareLaunchArgument, list[IncludeLaunchDescription] | None]
+    ArgumentWithIncludes = tuple[DeclareLaunchArgument, list[IncludeLaunchDescription]]
 
 
 SomeSubstitutionsType = Union[str, "Substitution", Iterable[Union[str, "Substitution"]]]
@@ -204,39 +204,34 @@ class LaunchDescription(LaunchDescriptionEntity):
         """Give its entities."""
         return self.entities
 
-    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[DeclareLaunchArgument]:
+    def get_launch_arguments(self) -> list[DeclareLaunchArgument]:
         """The arguments that it and what it includes declare."""
-        found = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
-        return [argument for argument, _ in found]
+        return [argument for argument, _ in self.get_launch_arguments_with_include_launch_description_actions()]
 
-    def get_launch_arguments_with_include_launch_description_actions(
-        self, conditional_inclusion: bool = False
-    ) -> list[ArgumentWithIncludes]:
-        """Each declared argument, with the includes that lead to it (None at the top level)."""
+    def get_launch_arguments_with_include_launch_description_actions(self) -> list[ArgumentWithIncludes]:
+        """Each declared argument, with the includes that lead to it; the first declaration of a name counts."""
         found: dict[str, ArgumentWithIncludes] = {}
-        _collect(self.entities, conditional_inclusion, None, found)
+        for argument, includes in _declared(self.entities, False, []):
+            found.setdefault(argument.name, (argument, includes))
         return list(found.values())
 
 
-def _collect(
-    entities: Iterable[LaunchDescriptionEntity],
-    conditional: bool,
-    includes: list[IncludeLaunchDescription] | None,
-    found: dict[str, ArgumentWithIncludes],
-) -> None:
-    """Add the arguments declared in `entities` to `found`; the first declaration of a name counts."""
+def _declared(
+    entities: Iterable[LaunchDescriptionEntity], conditional: bool, includes: list[IncludeLaunchDescription]
+) -> Iterator[ArgumentWithIncludes]:
+    """The arguments declared in `entities`, with the includes that lead to each."""
     from .actions import DeclareLaunchArgument, IncludeLaunchDescription
 
     for entity in entities:
-        if isinstance(entity, DeclareLaunchArgument) and entity.name not in found:
+        if isinstance(entity, DeclareLaunchArgument):
             entity._conditionally_included = conditional or entity.condition is not None
-            found[entity.name] = (entity, includes)
+            yield entity, includes
         inner = includes
         below = entity.describe_sub_entities()
         if isinstance(entity, IncludeLaunchDescription):
             location = entity.launch_description_source.location
-            if location in [outer.launch_description_source.location for outer in includes or []]:
+            if location in [outer.launch_description_source.location for outer in includes]:
                 continue  # a file that includes itself takes no other arguments within itself
-            inner = [*(includes or []), entity]
-        _collect(below, conditional, inner, found)
-        _collect(entity.describe_conditional_sub_entities(), True, inner, found)
+            inner = [*includes, entity]
+        yield from _declared(below, conditional, inner)
+        yield from _declared(entity.describe_conditional_sub_entities(), True, inner)

@@ -10,9 +10,10 @@ import inspect
 import re
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, dataclass_transform
 
 from turtle_lesson.ros.idl.names import did_you_mean
 
@@ -211,11 +212,12 @@ def expose_action(name: str) -> Callable[[Kind], Kind]:
     return expose
 
 
+@dataclass_transform(eq_default=False, field_specifiers=(field,))
 def expose_substitution(name: str) -> Callable[[Kind], Kind]:
-    """Let `$(name …)` stand for a substitution: decorates its class, whose arguments follow the name, in order."""
+    """Let `$(name …)` stand for a substitution: makes its class a dataclass, whose fields follow the name, in order."""
 
     def expose(kind: Kind) -> Kind:
-        _substitutions[name] = kind
+        _substitutions[name] = dataclass(repr=False, eq=False)(kind)
         return kind
 
     return expose

@@ -46,7 +46,6 @@ class SubstitutionFailure(RuntimeError):
 
 
 @expose_substitution("var")
-@dataclass(repr=False, eq=False)
 class LaunchConfiguration(Substitution):
     """Stands for the launch argument or configuration of a name."""
 
@@ -78,7 +77,6 @@ class LaunchConfiguration(Substitution):
 
 
 @expose_substitution("env")
-@dataclass(repr=False, eq=False)
 class EnvironmentVariable(Substitution):
     """Stands for the environment variable of a name, as this launch sees it."""
 
@@ -116,13 +114,12 @@ class LocalSubstitution(Substitution):
 
 
 @expose_substitution("filename")
-@dataclass(repr=False, eq=False)
 class ThisLaunchFile(Substitution):
     """The path of the launch file."""
 
     def perform(self, context: LaunchContext) -> str:
         """The path. Raises SubstitutionFailure outside of a launch file."""
-        path = context.get_locals_as_dict().get("current_launch_file_path")
+        path = context._locals.get("current_launch_file_path")
         if path is None:
             raise SubstitutionFailure(f"{type(self).__name__} used outside of a launch file (in a script)")
         return str(path)
@@ -138,7 +135,6 @@ class ThisLaunchFileDir(ThisLaunchFile):
 
 
 @expose_substitution("eval")
-@dataclass(repr=False, eq=False)
 class PythonExpression(Substitution):
     """Evaluates an expression; the names of the modules, and what `math` has in it, may be used."""
 
@@ -177,7 +173,6 @@ def _truth(context: LaunchContext, value: SomeSubstitutionsType) -> bool:
 
 
 @expose_substitution("not")
-@dataclass(repr=False, eq=False)
 class NotSubstitution(Substitution):
     """True if its part is false."""
 
@@ -218,9 +213,10 @@ class OrSubstitution(_Pair):
 class EqualsSubstitution(_Pair):
     """`true` if both sides are the same text, the same truth value, or numbers that are nearly equal."""
 
-    def __init__(self, left: SomeSubstitutionsType | float | None, right: SomeSubstitutionsType | float | None) -> None:
-        sides = [str(side).lower() if isinstance(side, int | float) else side for side in (left, right)]
-        super().__init__(*("" if side is None else side for side in sides))
+    def __post_init__(self) -> None:
+        for name, side in vars(self).items():
+            setattr(self, name, "" if side is None else str(side).lower() if isinstance(side, int | float) else side)
+        super().__post_init__()
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
@@ -264,11 +260,10 @@ class PathJoinSubstitution(Substitution):
 
 
 @expose_substitution("find-exec")
-@dataclass(repr=False, eq=False, kw_only=True)
 class FindExecutable(Substitution):
     """Stands for the path at which a program is found; those that the simulation has are found by their names."""
 
-    name: SomeSubstitutionsType
+    name: SomeSubstitutionsType = field(kw_only=True)
     _shown = "FindExec({name})"
 
     def perform(self, context: LaunchContext) -> str:
@@ -283,7 +278,6 @@ class FindExecutable(Substitution):
 
 
 @expose_substitution("command")
-@dataclass(repr=False, eq=False)
 class Command(Substitution):
     """Stands for the output of a command. Here these are `cat FILE`, `echo …` and `xacro FILE`."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
@@ -21,7 +20,6 @@ __all__ = ["ExecutableInPackage", "FindPackagePrefix", "FindPackageShare"]
 
 
 @expose_substitution("exec-in-pkg")
-@dataclass(repr=False, eq=False)
 class ExecutableInPackage(Substitution):
     """Stands for the path at which a real ROS 2 has the program; `target` is what runs here."""
 
@@ -44,7 +42,6 @@ class ExecutableInPackage(Substitution):
 
 
 @expose_substitution("find-pkg-share")
-@dataclass(repr=False, eq=False)
 class FindPackageShare(Substitution):
     """The folder with a package's launch files and other data."""
 
@@ -57,7 +54,6 @@ class FindPackageShare(Substitution):
 
 
 @expose_substitution("find-pkg-prefix")
-@dataclass(repr=False, eq=False)
 class FindPackagePrefix(Substitution):
     """The folder that a package is installed in."""
 

@@ -58,7 +58,7 @@ class Shutdown(EmitEvent):
 
     def execute(self, context: LaunchContext) -> None:
         """Begin to end it."""
-        event = context.get_locals_as_dict().get("event")
+        event = context._locals.get("event")
         if isinstance(event, ProcessExited):
             text = f"process[{event.process_name}] was required: shutting down launched system"
             logging.get_logger().info(text)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar
 
 from turtle_lesson.ros.ament import index
 from turtle_lesson.ros.ament.package import NotHereError
-from turtle_lesson.ros.idl.names import did_you_mean
 
 from .._context import LaunchContext
 from .._entities import (
@@ -20,14 +20,17 @@ from .._entities import (
     text_of,
 )
 from .._entities import normalize_to_list_of_substitutions as pieces
-from ..event_handlers import OnShutdown
 from ..frontend import Entity, InvalidLaunchFileError, actions, attribute, expose_action, pair, tags
 from ..launch_description_sources import AnyLaunchDescriptionSource, LaunchDescriptionSource
 from ._configuration import SetLaunchConfiguration
 
 __all__ = ["GroupAction", "IncludeLaunchDescription", "OpaqueFunction", "TimerAction"]
 
-_SCOPED = ("launch_configurations", "environment")
+
+def _scope(context: LaunchContext, *names: str) -> OpaqueFunction:
+    """Begin a scope of these values of the context; the action that is returned ends it."""
+    context._push(*names)
+    return OpaqueFunction(function=lambda context: context._pop(*names))
 
 
 @expose_action("group")
@@ -46,23 +49,16 @@ class GroupAction(Action):
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives."""
-        return self.get_sub_entities() if self.condition is None else []
+        return [*self.__actions] if self.condition is None else []
 
     def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives if its condition holds."""
-        return [] if self.condition is None else self.get_sub_entities()
-
-    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Its actions, between those that begin and end the scope."""
-        if not self.__scoped:
-            return [*self.__actions]
-        begin = OpaqueFunction(function=lambda context: context._push(*_SCOPED))
-        end = OpaqueFunction(function=lambda context: context._pop(*_SCOPED))
-        return [begin, *self.__actions, end]
+        return [] if self.condition is None else [*self.__actions]
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Give them."""
-        return self.get_sub_entities()
+        """Give its actions, in a scope of their own."""
+        end = [_scope(context, "launch_configurations", "environment")] if self.__scoped else []
+        return [*self.__actions, *end]
 
 
 DEEPEST = 50
@@ -108,32 +104,28 @@ class IncludeLaunchDescription(Action):
         """
         description = self._load(context)
         path = os.path.abspath(self.launch_description_source.location)
-        outer, depth = context.get_locals_as_dict().get("current_launch_file_path"), context._include_depth
-        if depth >= DEEPEST:
+        end = _scope(context, "_locals")
+        context.extend_locals({"current_launch_file_path": path})
+        if len(context._scopes["_locals"]) > DEEPEST:
             name = os.path.basename(path)
             hint = f"{name} is included again and again: give the include a condition that ends it."
             raise explained(RuntimeError("launch files include one another endlessly"), hint)
         given = [text_of(context, name) for name, _ in self.launch_arguments]
         for argument, includes in description.get_launch_arguments_with_include_launch_description_actions():
-            inner = [name for include in includes or [] for name, _ in include.launch_arguments]
+            inner = [name for include in includes for name, _ in include.launch_arguments]
             known = [*given, *(name for name in inner if isinstance(name, str))]
             needed = argument.default_value is None and not argument._conditionally_included
             if needed and argument.name not in known:
-                close = did_you_mean(argument.name, known).removeprefix("Did you mean ").removesuffix("?")
-                give = f"Give it a value: {argument.name}:=… (in a notebook lesson.launch(…, {argument.name}='…'))."
+                hint = f"Give it a value: {argument.name}:=… (in a notebook lesson.launch(…, {argument.name}='…'))."
+                for close in difflib.get_close_matches(str(argument.name), known, n=1):
+                    hint = f"You gave '{close}'; did you mean '{argument.name}'?"
                 error = RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(known)}]"
                 )
-                raise explained(error, f"You gave {close}; did you mean '{argument.name}'?" if close else give)
-
-        def within(context: LaunchContext, depth: int, path: str | None) -> None:
-            context._include_depth = depth
-            context.extend_locals({"current_launch_file_path": path})
-
-        within(context, depth + 1, path)
+                raise explained(error, hint)
         sets = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
-        return [*sets, description, OpaqueFunction(function=within, args=[depth, outer])]
+        return [*sets, description, end]
 
     def _load(self, context: LaunchContext) -> LaunchDescription:
         source = self.launch_description_source
@@ -185,13 +177,9 @@ class TimerAction(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Begin to wait."""
-        if self.__cancelled:
-            return
-        if self.__cancel_on_shutdown:
-            context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: self.cancel()))
 
         def time_is_over() -> None:
-            if not self.__cancelled:
+            if not (self.__cancelled or (self.__cancel_on_shutdown and context.is_shutdown)):
                 for each in self.actions:
                     context._host.visit(each)
                 self._complete(context)
