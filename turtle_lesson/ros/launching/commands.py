@@ -16,7 +16,6 @@ import shlex
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path, PurePath
 from typing import Any, NoReturn
@@ -53,14 +52,12 @@ def program(words: Sequence[str], *, shell: bool = False) -> Program:
     or ExecutableNotFoundError if `ros2 run` names what is not there.
     """
     shown = " ".join(words)
-    text = shown if shell else ""
-    if not shell and PurePath(words[0]).name in SHELLS and len(words) == 3 and words[1] == "-c":
-        shell, text = True, words[2]
-    if not shell:
-        return _simple(list(words), shown)
-    commands = hooks.commands_of_text(text)
+    in_shell = PurePath(words[0]).name in SHELLS and len(words) == 3 and words[1] == "-c"
+    commands = [("", list(words))]
+    if shell or in_shell:
+        commands = hooks.commands_of_text(shown if shell else words[2])
     if len(commands) == 1:
-        return replace(_simple(commands[0][1], shown), shown=shown)
+        return _simple(commands[0][1], shown)
     mains = [(sign, _main(command)) for sign, command in commands]
 
     def main() -> int:

@@ -69,15 +69,13 @@ def _place_of(error: BaseException, written_at: Place | None) -> Place | None:
     else the action's own.
     """
     linecache.checkcache()
-    causes = _causes(error)
-    for cause in reversed(causes):
-        place: Place | None = getattr(cause, "place", None)
+    causes = _causes(error)[::-1]
+    for place in (getattr(cause, "place", None) for cause in causes):
         if place is not None:
             return place
     for cause in causes:
         if isinstance(cause, SyntaxError) and cause.filename and cause.lineno and not is_ours(cause.filename):
             return cause.filename, cause.lineno
-    for cause in reversed(causes):
         if frames := learners_frames(cause.__traceback__):
             return frames[-1].tb_frame.f_code.co_filename, frames[-1].tb_lineno
     return written_at

@@ -96,7 +96,6 @@ class RunningProcess:
     def _is_python(self) -> bool:
         """Whether a robot starts Python for it: a node of a package, a Python file, a `ros2` command."""
         program = self.action._program
-        assert program is not None
         return isinstance(program.target, (Path, PythonProgram)) or PurePath(program.argv[0]).name == "ros2"
 
     def start(self) -> None:
@@ -104,7 +103,6 @@ class RunningProcess:
         if self.service.context.is_shutdown:
             return
         program = self.action._program
-        assert program is not None
         stdout, stderr = _Output(self, 1), _Output(self, 2)
 
         def on_exit(process: Process) -> None:
@@ -136,7 +134,7 @@ class RunningProcess:
 
     def report_end(self) -> None:
         """Print how it ended."""
-        assert self.process is not None and self.action._program is not None
+        assert self.process is not None
         code = TERMINATED if self._terminated else self.process.exit_code
         self.action.return_code = code
         if code == 0:

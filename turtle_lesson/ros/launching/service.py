@@ -76,16 +76,6 @@ class LaunchService:
         self._waiting.append(action)
         self.settle_soon()
 
-    def _start(self, action: ExecuteProcess) -> None:
-        if self.context.is_shutdown:
-            return
-        if action.cwd:
-            self.warn_once("here all programs work in the notebook's folder, whatever cwd= says")
-        if action.prefix_left_out:
-            self.warn_once(f"{action.prefix_left_out} is left out: programs run here without a prefix")
-        self.processes.append(RunningProcess(self, action))
-        self.processes[-1].start()
-
     def next_start_up(self) -> int:
         """How long the next Python program takes until it begins (ns), as they come up one after the other."""
         now = self.world.sim.now
@@ -224,7 +214,9 @@ class LaunchService:
         while self._waiting or self.context._event_queue:
             if self._waiting:
                 drawn = self.world.start_order
-                self._start(self._waiting.pop(0 if drawn is None else drawn.randrange(len(self._waiting))))
+                action = self._waiting.pop(0 if drawn is None else drawn.randrange(len(self._waiting)))
+                self.processes.append(RunningProcess(self, action))
+                self.processes[-1].start()
             else:
                 self._handle(self.context._event_queue.popleft())
 

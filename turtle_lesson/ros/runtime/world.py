@@ -11,16 +11,16 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from random import Random
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from .. import hooks
 from ..distro import UNCHECKED_FIELDS, VARIABLE, chosen_release
 from ..idl import checks
 from ..rmw.graph import Graph
 from ..rmw.trace import Trace
-from ..sim.errors import DriveTimeout, SimulationError, is_library
+from ..sim.errors import SimulationError, is_library
 from ..sim.process import Output, Process
-from ..sim.run_blocking import DRIVE_LIMIT, drive_within
+from ..sim.run_blocking import drive_within
 from ..sim.simulation import NANOSECONDS, Simulation
 from ..sim.strand import running_strand
 from ..stdlib import ownership, patches
@@ -29,6 +29,7 @@ from ..stdlib.process_state import encoded
 from ..stdlib.program import run_program
 
 if TYPE_CHECKING:
+    from ...session.live import Player
     from ..ament.index import PackageIndex
     from ..sim.strand import Strand
 
@@ -54,7 +55,7 @@ class World:
         self.processes: list[Process] = []
         self.start_order: Random | None = None
         """What draws which program of a launch is started next; None: in the order in which they are written."""
-        self.player: Pace | None = None
+        self.player: Player | None = None
         """What plays this world in live mode."""
         self.at_close: list[Callable[[], object]] = []
         """Called first when the world is closed: what outlives it lets go of it."""
@@ -159,21 +160,11 @@ def open_world(seed: int = 0, distro: str | None = None) -> World:
 # -- letting it run while a command works: as fast as possible, or in live mode at the pace of the clock ---------------
 
 
-LONGEST = 86_400
-"""How long, in s, a command may wait at most: a day."""
+PATIENCE = 2 * 86_400 * NANOSECONDS
+"""How long, in ns, a command is waited for: a verb limits its own waits to a day at most."""
 
 LIVE_STEP = 0.02
 """How long, in s, a live world waits between two looks at the clock."""
-
-
-class Pace(Protocol):
-    """What plays a world in live mode (`turtle_lesson.session.live.Player`)."""
-
-    rate: float
-
-    @property
-    def playing(self) -> bool:
-        """Whether robot time goes on by itself."""
 
 
 def live_rate(world: World) -> float | None:
@@ -208,7 +199,7 @@ class Waiter:
         rate = live_rate(self._world)
         try:
             if rate is None:
-                self._drive(process)
+                drive_within(PATIENCE, self._world.sim, self._world.notebook, self._park, process)
             else:
                 self._live = True
                 _play(self._world, rate, lambda: not process.alive)
@@ -223,19 +214,6 @@ class Waiter:
             if process.alive:
                 process.kill()
         return ""
-
-    def _drive(self, process: Process) -> None:
-        """Run as fast as possible. A verb limits its own waits: one that goes on for longer was told so, for a day or two."""
-        simulation = self._world.sim
-        end = simulation.now + round(2 * LONGEST * NANOSECONDS)
-        while process.exit_code is None:
-            begun = simulation.now
-            try:
-                drive_within(DRIVE_LIMIT, simulation, self._world.notebook, self._park, process)
-            except DriveTimeout:
-                if begun > end:
-                    raise
-                simulation.run_until(begun + DRIVE_LIMIT)
 
     def _park(self, process: Process) -> None:
         self._strand = strand = running_strand()

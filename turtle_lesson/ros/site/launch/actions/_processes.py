@@ -154,18 +154,15 @@ class ExecuteProcess(Action):
         """What the process is called in the output, such as `navigator-1`; known when it is run."""
         self.process_details: dict[str, Any] = {}
         self.return_code: int | None = None
-        self.prefix_left_out = ""
-        self._program: Program | None = None
-        self._respawns = False
-        self._on_screen: set[str] = set()
+        self._program: Program
+        self._respawns: bool
+        self._on_screen: set[str]
 
-    def prepare(self, context: LaunchContext) -> None:
-        """Make everything text that was not yet; name the process after its program, with a number."""
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Make everything text that was not yet; have the process started, named after its program, with a number."""
         if not self._words:
             error = ValueError("ExecuteProcess expected a command in 'cmd', got none")
             raise explained(error, "Write its words in a list, as in cmd=['ros2', 'topic', 'list'].")
-        before = text_of(context, self._prefix).split()
-        self.prefix_left_out = PurePath(before[0]).name if before else ""  # such as a terminal or a debugger
         self.cmd = [text_of(context, word) for word in self._words]
         self.name = f"{text_of(context, self._name) or os.path.basename(self.cmd[0])}-{next(context._host.numbers)}"
         try:
@@ -185,6 +182,15 @@ class ExecuteProcess(Action):
             "cwd": None if self.cwd is None else text_of(context, self.cwd),
             "env": {**alone, **_variables(context, self._additional_env)},
         }
+        for before in text_of(context, self._prefix).split()[:1]:  # such as a terminal or a debugger
+            context._host.warn_once(f"{PurePath(before).name} is left out: programs run here without a prefix")
+        if self.cwd:
+            context._host.warn_once("here all programs work in the notebook's folder, whatever cwd= says")
+        if not context.is_shutdown:
+            if self.__on_exit is not None:
+                context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
+            context._host.start_process(self)
+        return None
 
     def _find_program(self, context: LaunchContext) -> Program:
         """What to run: a command of the simulation, unless a subclass knows better.
@@ -192,15 +198,6 @@ class ExecuteProcess(Action):
         Raises UnknownCommand if there is none of this name here.
         """
         return hooks.program_of_command(self.cmd, shell=self.shell)
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Have the process started."""
-        self.prepare(context)
-        if not context.is_shutdown:
-            if self.__on_exit is not None:
-                context.register_event_handler(OnProcessExit(target_action=self, on_exit=self.__on_exit))
-            context._host.start_process(self)
-        return None
 
     def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives when its process ends."""
