@@ -408,7 +408,7 @@ def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said
         (
             "- node:\n  pkg: robot_controller\n  exec: navigator\n",
             "RuntimeError: Subentity must be a dictionary with only one key, which is the entity type",
-            4,
+            2,
             "Indent what belongs to node deeper than node itself.",
         ),
         (

@@ -8,16 +8,15 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import count
 from pathlib import Path
 from typing import Any, TypeVar, dataclass_transform
 
 from turtle_lesson.ros.idl.names import did_you_mean
 
-from ._entities import Action, LaunchDescription, Place, Substitution, TextSubstitution, explained
+from ._entities import Action, LaunchDescription, Substitution, TextSubstitution, explained
+from ._entity import Entity
 
 __all__ = ["Entity", "InvalidFrontendLaunchFileError", "parse_substitution"]
 
@@ -42,94 +41,6 @@ class InvalidLaunchFileError(Exception):
 
 class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
     """A launch file that is neither XML nor YAML."""
-
-
-MEANT = {
-    "package": "pkg",
-    "executable": "exec",
-    "type": "exec",
-    "ns": "namespace",
-    "default_value": "default",
-    "value": "default",
-    "msg": "message",
-    "text": "message",
-    "arguments": "args",
-    "path": "file",
-}
-"""What attributes are called in Python launch files or in ROS 1, and what they are called here."""
-
-
-class Entity:
-    """A tag of a launch file; `launch_xml.Entity` and `launch_yaml.Entity` say how it is written.
-
-    What is asked for (`get_attr`, `nested`, `children`) is remembered, so that what nobody asks for can be refused.
-    `place` is the file and line where it is written, if that is known.
-    """
-
-    TAGS = ATTRIBUTES = "key(s)"
-    """What the format calls the tags and the attributes in a tag."""
-
-    def __init__(
-        self, element: Any, type_name: str, *, parent: Entity | None = None, file: str = "", line: int | None = None
-    ) -> None:
-        self.type_name = type_name
-        self._element = element
-        self._file: str = parent._file if parent is not None else file
-        self._numbers: Iterator[int] = parent._numbers if parent is not None else count(1)
-        self.place: Place | None = (self._file, line) if self._file and line is not None else None
-        self._asked: defaultdict[str, set[str]] = defaultdict(set)
-
-    @property
-    def children(self) -> list[Entity]:
-        """The tags in it."""
-        raise NotImplementedError
-
-    def _given(self, kind: str) -> Mapping[str, Any]:
-        """What is written in it, by name: its `TAGS` or its `ATTRIBUTES`."""
-        raise NotImplementedError
-
-    def _nested(self, name: str, given: Any) -> list[Entity]:
-        """The tags of a name."""
-        raise NotImplementedError
-
-    def _value(self, name: str, data_type: Any, can_be_str: bool) -> Any:
-        """The value of an attribute. Raises TypeError if it is of another type."""
-        raise NotImplementedError
-
-    def nested(self, name: str) -> list[Entity]:
-        """The tags of a name in it."""
-        self._asked[self.TAGS].add(name)
-        given = self._given(self.TAGS)
-        return self._nested(name, given[name]) if name in given else []
-
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """An attribute's value.
-
-        The type is bool, int, float, str, a list of one of these, or None for YAML's rules; with `can_be_str`, text,
-        which may have substitutions in it, is as good. Raises AttributeError if it is absent and not optional, and
-        TypeError for another type.
-        """
-        self._asked[self.ATTRIBUTES].add(name)
-        given = self._given(self.ATTRIBUTES)
-        if name in given:
-            return self._value(name, data_type, can_be_str)
-        if optional:
-            return None
-        other = next((word for word in given if MEANT.get(word) == name), None)
-        hint = f"It is called {name} here, not {other}." if other else f"Give {self.type_name} the attribute {name}."
-        what = f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'"
-        raise explained(AttributeError(what), hint)
-
-    def assert_entity_completely_parsed(self) -> None:
-        """Check that everything in it was asked for. Raises ValueError naming what nobody knows, and what was perhaps meant."""
-        for kind in dict.fromkeys((self.TAGS, self.ATTRIBUTES)):
-            known = self._asked[kind]
-            if left := sorted(set(self._given(kind)) - known, key=str):
-                what = f"Unexpected {kind} found in `{self.type_name}`: {{{', '.join(map(repr, left))}}}"
-                hints = [f"Did you mean '{MEANT[name]}'?" for name in left if MEANT.get(name) in known]
-                hints += [did_you_mean(str(name)[:100], sorted(known)) for name in left]
-                takes = f"`{self.type_name}` can have: {', '.join(sorted(known))}." if known else ""
-                raise explained(ValueError(what), next(filter(None, hints), takes))
 
 
 # -- how the arguments of an action are read from its tag ----------------------------------------------------------------
@@ -191,8 +102,7 @@ def actions(entity: Entity) -> list[Action]:
 
 def anything(entity: Entity) -> None:
     """Whatever is in a tag; it is passed over."""
-    for kind in (entity.TAGS, entity.ATTRIBUTES):
-        entity._asked[kind] |= set(entity._given(kind))
+    entity.ignore_rest()
 
 
 # -- which action or substitution a name stands for ----------------------------------------------------------------------
@@ -246,10 +156,6 @@ def _named(known: Mapping[str, Kind], name: str, complaint: str) -> Kind:
     raise explained(RuntimeError(f"{complaint}{name}"), _NOT_HERE.get(name) or close)
 
 
-MOST_ACTIONS = 10_000
-"""So many actions may stand in a file; YAML's anchors could make any number of them out of a few lines."""
-
-
 def action_of(entity: Entity) -> Action:
     """The action that a tag stands for.
 
@@ -258,8 +164,6 @@ def action_of(entity: Entity) -> Action:
     """
     from .conditions import IfCondition, UnlessCondition
 
-    if next(entity._numbers) > MOST_ACTIONS:
-        raise RuntimeError(f"a launch file of more than {MOST_ACTIONS} actions; does it repeat itself?")
     try:
         kind = _named(_actions, entity.type_name, "Unrecognized entity of the type: ")
         conditions = [

@@ -1,0 +1,164 @@
+"""What stands in an XML or YAML launch file, whichever it is: tags with attributes, and with further tags in them."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, get_args
+
+from turtle_lesson.ros.idl.names import did_you_mean
+
+from ._entities import Place, explained
+from .utilities import is_of_type, value_in_text
+
+MEANT = {
+    "package": "pkg",
+    "executable": "exec",
+    "type": "exec",
+    "ns": "namespace",
+    "default_value": "default",
+    "value": "default",
+    "msg": "message",
+    "text": "message",
+    "arguments": "args",
+    "path": "file",
+}
+"""What attributes are called in Python launch files or in ROS 1, and what they are called here."""
+
+
+TAGS, ATTRIBUTES = "nested tag(s)", "attribute(s)"
+"""What XML calls what can stand in a tag."""
+
+
+class Mapping(dict[Any, Any]):
+    """What stands in a tag, by name: the values of its attributes, and for each name of tags in it a list of them.
+
+    `line` is where it begins, counted from 1. In XML, `in_xml` has all of these tags in their order, each as YAML writes it, a
+    mapping of its name alone.
+    """
+
+    def __init__(self, line: int, given: dict[str, Any] | None = None, in_xml: list[Mapping] | None = None) -> None:
+        super().__init__(given or {})
+        self.line = line
+        self.in_xml = in_xml
+
+
+class Entity:
+    """A tag of a launch file, which was written at `place`.
+
+    What is asked for (`get_attr`, `nested`, `children`) is remembered, so that what nobody asks for can be refused.
+    """
+
+    def __init__(self, type_name: str, inside: Any, place: Place) -> None:
+        self.type_name = type_name
+        self.place = place
+        self._written = inside
+        self._asked: dict[str, str] = {}
+
+    @cached_property
+    def _inside(self) -> Mapping:
+        if isinstance(self._written, Mapping):
+            return self._written
+        if isinstance(self._written, list | None):
+            return Mapping(self.place[1], {} if self._written is None else {"children": self._written})
+        error = TypeError(f"Expected a dict or list, got {type(self._written)}")
+        raise explained(error, f"Write the attributes of {self.type_name} below it, each on a line of its own.")
+
+    def _entity(self, name: Any, inside: Any, line: int) -> Entity:
+        return Entity(str(name), inside, (self.place[0], line))
+
+    @property
+    def children(self) -> list[Entity]:
+        """The tags in it. In YAML they are its list, or the list called `children` in its mapping."""
+        below = self._inside.in_xml
+        if below is None:
+            self._asked["children"] = TAGS
+            if "children" not in self._inside:
+                raise ValueError(
+                    f"Expected entity `{self.type_name}` to have children entities."
+                    "That can be a list of subentities or a dictionary with a `children` list element"
+                )
+            below = self._inside["children"]
+        found = []
+        for item in below if isinstance(below, list) else [below]:
+            if not isinstance(item, Mapping) or len(item) != 1:
+                error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
+                hint = "Each item is a hyphen, the name of an action and a colon, as in - node:"
+                if isinstance(item, Mapping) and item:
+                    hint = f"Indent what belongs to {next(iter(item))} deeper than {next(iter(item))} itself."
+                    explained(error, place=(self.place[0], item.line))
+                raise explained(error, hint)
+            [(name, inside)] = item.items()
+            if self._inside.in_xml is not None:
+                self._asked[name] = TAGS
+            found.append(self._entity(name, inside, item.line))
+        return found
+
+    def nested(self, name: str) -> list[Entity]:
+        """The tags of a name in it."""
+        self._asked[name] = TAGS
+        given = self._inside.get(name, [])
+        if not isinstance(given, list) or not all(isinstance(item, Mapping) for item in given):
+            error = TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
+            in_xml = f"Write it as a tag, <{name} …/>."
+            raise explained(error, f"Begin each {name} with a hyphen." if self._inside.in_xml is None else in_xml)
+        return [self._entity(name, item, item.line) for item in given]
+
+    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+        """An attribute's value.
+
+        The type is bool, int, float, str, a list of one of these, or None for YAML's rules; with `can_be_str`, text,
+        which may have substitutions in it, is as good. Raises AttributeError if it is absent and not optional, and
+        TypeError for another type.
+        """
+        self._asked[name] = ATTRIBUTES
+        value: Any = self._inside.get(name)
+        if name not in self._inside:
+            if optional:
+                return None
+            other = next((word for word in self._inside if MEANT.get(word) == name), None)
+            hint = (
+                f"It is called {name} here, not {other}." if other else f"Give {self.type_name} the attribute {name}."
+            )
+            what = f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'"
+            raise explained(AttributeError(what), hint)
+        expected = f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}'"
+        if self._inside.in_xml is not None and isinstance(value, str):
+            try:
+                return self._value_in_text(name, value, data_type, can_be_str)
+            except ValueError:
+                raise TypeError(f"{expected}.'{value}' can not be converted to one of those types") from None
+        if not is_of_type(value, data_type, can_be_str):
+            is_plain = data_type is str and isinstance(value, bool | int | float)
+            hint = f'Put it into quotation marks: {name}: "{value}"' if is_plain else ""
+            raise explained(TypeError(f"{expected}, got '{type(value)}'"), hint)
+        return value
+
+    def _value_in_text(self, name: str, text: str, data_type: Any, can_be_str: bool) -> Any:
+        """XML knows text only. An attribute `name-sep` says what parts the items of the list `name`."""
+        separator = self._inside.get(f"{name}-sep")
+        if separator is None:
+            return value_in_text(text, data_type, can_be_str)
+        self._asked[f"{name}-sep"] = ATTRIBUTES
+        item_type = next(iter(get_args(data_type)), None)
+        items = text.split(separator) if separator else [text]
+        return [value_in_text(item, item_type, can_be_str) for item in items]
+
+    def ignore_rest(self) -> None:
+        """Pass over whatever was not asked for."""
+        self._asked |= dict.fromkeys(self._inside, ATTRIBUTES)
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Check that everything in it was asked for. Raises ValueError naming what nobody knows, and what was perhaps meant."""
+        left = sorted(self._inside.keys() - self._asked, key=str)
+        for kind in (TAGS, ATTRIBUTES):
+            known, called = sorted(self._asked), "key(s)"
+            names = left
+            if self._inside.in_xml is not None:
+                known, called = [name for name in known if self._asked[name] == kind], kind
+                names = [name for name in left if isinstance(self._inside[name], list) == (kind == TAGS)]
+            if names:
+                what = f"Unexpected {called} found in `{self.type_name}`: {{{', '.join(map(repr, names))}}}"
+                hints = [f"Did you mean '{MEANT[name]}'?" for name in names if MEANT.get(name) in known]
+                hints += [did_you_mean(str(name)[:100], known) for name in names]
+                takes = f"`{self.type_name}` can have: {', '.join(known)}." if known else ""
+                raise explained(ValueError(what), next(filter(None, hints), takes))
