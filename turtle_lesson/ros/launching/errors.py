@@ -171,7 +171,6 @@ _BY_TEXT: dict[str, str | Callable[[str], str]] = {
     r"name '(\w+)' is not defined": _undefined,
     r"unexpected keyword argument '(\w+)'": _unexpected_keyword,
     r"missing \d+ required keyword-only arguments?: '(\w+)'": r"Write \1='…' in it.",
-    r"expected 'parameters' to be one of .*'dict'": "Put it into a list: parameters=[{…}]",
     r"Failed to normalize given item of type '<class 'NoneType'>'": (
         "Launch needs text here, but got None: is a variable or a return value empty?"
     ),

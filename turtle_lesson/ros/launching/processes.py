@@ -18,9 +18,7 @@ from ..ament.package import PythonProgram
 if TYPE_CHECKING:
     from launch.actions import ExecuteProcess
     from lifecycle_msgs.msg import TransitionEvent
-    from rclpy.client import Client
     from rclpy.node import Node
-    from rclpy.timer import Timer
 
     from ..runtime.world import World
     from ..sim.process import Process
@@ -188,7 +186,6 @@ class RosHelper:
         self._carry_on = carry_on
         self._orders: list[Callable[[Node], object]] = []
         self._wake: Callable[[], None] | None = None
-        self._clients: dict[str, Client] = {}
         self._ended = False
         self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
 
@@ -235,20 +232,18 @@ class RosHelper:
         from lifecycle_msgs.srv import ChangeState
 
         def call(node: Node) -> None:
-            if node_name not in self._clients:
-                self._clients[node_name] = node.create_client(ChangeState, f"{node_name}/change_state")
-            client = self._clients[node_name]
-            if not client.service_is_ready():  # wait without holding up what other nodes tell
-                timer = node.create_timer(LOOKS_AGAIN, lambda: again(node, timer))
-                return
+            client = node.create_client(ChangeState, f"{node_name}/change_state")
             request = ChangeState.Request()
             request.transition.id = transition_id
-            future = client.call_async(request)
-            future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
 
-        def again(node: Node, timer: Timer) -> None:
-            node.destroy_timer(timer)
-            call(node)
+            def try_it() -> None:
+                if client.service_is_ready():
+                    timer.cancel()
+                    future = client.call_async(request)
+                    future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
+
+            timer = node.create_timer(LOOKS_AGAIN, try_it)  # waits without holding up what other nodes tell
+            try_it()
 
         self._order(call)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from turtle_lesson.ros.runtime.bounded_yaml import safe_load
@@ -12,22 +11,7 @@ from ._entities import Substitution, normalize_to_list_of_substitutions, perform
 if TYPE_CHECKING:
     from ._context import LaunchContext
 
-__all__ = [
-    "ensure_argument_type",
-    "normalize_to_list_of_substitutions",
-    "perform_substitutions",
-]
-
-
-def ensure_argument_type(
-    argument: object, types: type | Iterable[type], argument_name: str, caller: str | None = None
-) -> None:
-    """Raise TypeError, with the real text, unless the argument is of one of the types."""
-    allowed = [types] if isinstance(types, type) else list(types)
-    if isinstance(argument, tuple(allowed)):
-        return
-    who = f"'{caller}' expected" if caller else "Expected"
-    raise TypeError(f"{who} '{argument_name}' to be one of {allowed}, but got '{argument}' of type '{type(argument)}'")
+__all__ = ["normalize_to_list_of_substitutions", "perform_substitutions"]
 
 
 def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:

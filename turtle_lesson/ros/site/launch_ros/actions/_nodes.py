@@ -14,7 +14,6 @@ from launch.actions import ExecuteProcess
 from launch.actions._processes import Program, command_line
 from launch.frontend import anything, attribute, expose_action, pair, tags
 from launch.substitutions import SubstitutionFailure
-from launch.utilities import ensure_argument_type
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 
@@ -82,8 +81,10 @@ class Node(ExecuteProcess):
         arguments: Iterable[SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
-        if parameters is not None:
-            ensure_argument_type(parameters, list, "parameters", "Node")
+        if not isinstance(parameters, list | None):
+            what = "'Node' expected 'parameters' to be one of [<class 'list'>]"
+            what += f", but got '{parameters}' of type '{type(parameters)}'"
+            raise explained(TypeError(what), "Put it into a list: parameters=[{…}]")
         for name_given, words in (("arguments", arguments), ("ros_arguments", ros_arguments)):
             if isinstance(words, str | Substitution):
                 raise TypeError(
@@ -106,8 +107,8 @@ class Node(ExecuteProcess):
                     f"Node expected 'remappings' to be a list of pairs, got {rule!r} in it; "
                     "write remappings=[('/from', '/to')]"
                 )
-        self.expanded_node_name = "<node_name_unspecified>"
-        self.expanded_node_namespace = "<node_namespace_unspecified>"
+        self.expanded_node_name = self.UNSPECIFIED_NODE_NAME
+        self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
         self._ros_words: list[str] = []
 
     @property
