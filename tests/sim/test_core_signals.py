@@ -94,6 +94,7 @@ def test_a_program_may_signal_itself(world: World) -> None:
 
     def program() -> None:
         signal.signal(signal.SIGUSR1, lambda number, _: log.append(signal.Signals(number).name))
+        signal.raise_signal(0)
         signal.raise_signal(signal.SIGUSR1)
 
     world.spawn(program, name="program")

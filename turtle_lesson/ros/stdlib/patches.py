@@ -107,11 +107,12 @@ def _refused(owner: str, name: str, why_not: Callable[[str], Exception]) -> Patc
     def refuse(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
         raise why_not(f"{owner}.{name}()")
 
-    return _in_process(owner, refuse, "what only a real operating system can do", name)
+    return _in_process(owner, refuse, REFUSED, name)
 
 
-def _method(owner: str, name: str, function: Callable[..., Any], why: str) -> Patch:
+def _method(owner: str, function: Callable[..., Any], why: str, name: str = "") -> Patch:
     """A row for a method of a class; the function gets the real method first, and then the object."""
+    name = name or function.__name__
 
     def ours(real: Any) -> Any:
         def method(self: Any, *arguments: Any, **keywords: Any) -> Any:
@@ -162,14 +163,8 @@ TABLE: tuple[Patch, ...] = (
     _function("threading", locks.peek, PEEK, "_time"),
     _function("queue", locks.peek, PEEK, "time"),
     Patch("queue", "SimpleQueue", lambda real: facade(real, locks.VirtualSimpleQueue), "Python's is made in C"),
-    *(
-        _method("threading:Thread", name, function, THREAD)
-        for name, function in (
-            ("start", threads.start),
-            ("join", threads.join),
-            ("is_alive", threads.is_alive),
-        )
-    ),
+    *(_method("threading:Thread", each, THREAD) for each in (threads.start, threads.join, threads.is_alive)),
+    _method("threading:Thread", threads.representation, THREAD, "__repr__"),
     *(_in_process("threading", function, THREAD, name) for name, function in threads.IDENTITY.items()),
     *(_function("threading", each, THREAD) for each in (threads.main_thread, threads.enumerate, threads.active_count)),
     _function("threading", threads.newname, NAMES, "_newname"),
@@ -178,48 +173,31 @@ TABLE: tuple[Patch, ...] = (
     Patch("_threading_local", "RLock", _now("threading", "RLock"), WAITS),
     Patch("threading", "local", lambda real: facade(real, ownership.VirtualLocal), "Python's goes by real threads"),
     _method(
-        "concurrent.futures.thread:ThreadPoolExecutor", "__init__", threads.init, "eight threads on every computer"
+        "concurrent.futures.thread:ThreadPoolExecutor", threads.init, "eight threads on every computer", "__init__"
     ),
-    _function("concurrent.futures.thread:ThreadPoolExecutor", threads.next_number, NAMES, "_counter"),
     Patch("concurrent.futures.thread", "_global_shutdown_lock", threads.NotInStrands, "no strand must wait with it"),
-    Patch(
-        "concurrent.futures.thread", "_threads_queues", threads.Queues, "Python would join simulated threads at exit"
-    ),
+    Patch("concurrent.futures.thread", "_threads_queues", threads.Queues, "Python would join simulated threads"),
     *(_in_process("asyncio.events", each, LOOPS) for each in asyncio_loops.REPLACEMENTS),
     *(Patch("asyncio", e.__name__, _now("asyncio.events", e.__name__), LOOPS) for e in asyncio_loops.REPLACEMENTS),
     *(_in_process("signal", each, SIGNAL, cells=False) for each in process_state.REPLACEMENTS),
     _function("os", process_state.kill, SIGNAL),
-    _in_process(
-        "os", lambda strand, code: strand.process.end_now(code), "ends that process alone", "_exit", cells=False
-    ),
+    _in_process("os", lambda strand, code: strand.process.end_now(code), "ends one process", "_exit", cells=False),
     _function("os", terminals.read, "reads the program's own terminal"),
     *(_function("os", process_state.tell_system, VARIABLES, name) for name in ("putenv", "unsetenv")),
     *(_refused("os", name, subprocesses.no_process) for name in ("fork", "forkpty")),
-    *(
-        _refused("signal", name, process_state.no_signal)
-        for name in (
-            "alarm",
-            "pause",
-            "setitimer",
-            "sigwait",
-            "sigwaitinfo",
-            "sigtimedwait",
-            "set_wakeup_fd",
-            "pthread_kill",
-        )
-    ),
+    *(_refused("signal", name, process_state.no_signal) for name in process_state.NO_SIGNALS),
     *(
         _function(owner, process_state.with_modules, MODULES, name)
         for owner, name in process_state.LOOKS_INTO_SYS_MODULES
     ),
-    _method("ipykernel.iostream:OutStream", "flush", in_no_strand, "waits for a real thread, in which no time passes"),
+    _method("ipykernel.iostream:OutStream", in_no_strand, "waits for a real thread, in which no time passes", "flush"),
     Patch("os:environ", "__class__", lambda real: process_state.ProcessEnviron, VARIABLES),
     _function("atexit", process_state.register, AT_EXIT),
     _function("atexit", process_state.unregister, AT_EXIT),
     Patch("subprocess", "Popen", lambda real: subprocesses.WorldPopen, CHILD),
     _function("os", subprocesses.system, CHILD),
-    _method("multiprocessing.process:BaseProcess", "start", subprocesses.start_process, REFUSED),
-    _method("tkinter:Tk", "__init__", subprocesses.first_window, "a program here has no screen"),
+    _method("multiprocessing.process:BaseProcess", subprocesses.start, REFUSED),
+    _method("tkinter:Tk", subprocesses.first_window, "a program here has no screen", "__init__"),
 )
 
 LATE = frozenset({"ipykernel.iostream", "multiprocessing.process", "numpy.random", "tkinter"})
@@ -247,36 +225,25 @@ class LateFinder:
         return spec
 
 
-FINDERS: tuple[tuple[Callable[[], object], Callable[[], object], Stage], ...] = (
-    (install_finder, uninstall_finder, Stage.IMPORT),
-    (lambda: sys.meta_path.insert(0, LateFinder), lambda: sys.meta_path.remove(LateFinder), Stage.WORLD),
-    (lambda: sys.meta_path.insert(0, ProgramFinder), lambda: sys.meta_path.remove(ProgramFinder), Stage.WORLD),
-)
-"""How entries of `sys.meta_path` are added and removed, and when: one makes the modules of message packages when they are
-imported, one has rows wait for their module, and one gives each program modules of its own."""
+FINDERS = (ProgramFinder, LateFinder)
+"""What a world puts before all other finders: one gives each program modules of its own, one has rows wait for their module.
+The one that makes the modules of message packages is there from `import turtle_lesson` on."""
 
 PROVED_ON = ((3, 11), (3, 14))
 """The oldest and the newest Python with which the names below were seen to do what is expected of them."""
 
-PRIVATE_NAMES: tuple[tuple[Any, str, str], ...] = (
-    (threading, "_time", "time limits of conditions and semaphores"),
-    (queue, "time", "time limits of queues"),
-    (threading, "_newname", "names of threads"),
-    (threading, "_RLock", "the RLock that is written in Python, to run on a virtual lock"),
-    (threading, "_allocate_lock", "the lock by which a condition waits"),
-    (threading.Condition(), "_lock", "telling virtual conditions from others"),
-    (queue, "_PySimpleQueue", "the SimpleQueue that is written in Python"),
-    (threading.Event(), "_flag", "looking at an event without its lock"),
-    (threading.Thread(name="unused"), "_initialized _started", "starting a thread"),
-    (threading.Thread(name="unused"), "_ident _native_id", "the number of a thread"),
-    (os.environ, "_data", "variables of a process's own"),
-    (ownership.module, "local", "the `threading.local` that is written in Python"),
-    (pool, "_threads_queues", "ending a program's pools"),
-    (pool, "_global_shutdown_lock", "starting work in a pool"),
-    (pool.ThreadPoolExecutor, "_counter", "names of a pool's threads"),
-    (asyncio_loops.asyncio.BaseEventLoop, "_run_once", "a loop that waits in virtual time"),
+PRIVATE_NAMES: tuple[tuple[Any, str], ...] = (
+    (threading, "_time _newname _RLock _allocate_lock"),
+    (threading.Condition(), "_lock"),
+    (threading.Event(), "_flag"),
+    (threading.Thread(name="unused"), "_initialized _started _ident _native_id"),
+    (queue, "time _PySimpleQueue"),
+    (ownership.module, "local"),
+    (pool, "_threads_queues _global_shutdown_lock"),
+    (asyncio_loops.asyncio.BaseEventLoop, "_run_once"),
+    (os.environ, "_data"),
 )
-"""What is used of the standard library without being documented: owner, names and purpose.
+"""What is used of the standard library without being documented: owner, and names.
 
 `asyncio._enter_task` and its kin are not among them: their underscore notwithstanding, they are documented.
 (https://docs.python.org/3/library/asyncio-extending.html)
@@ -292,8 +259,9 @@ def _check_python(version: tuple[int, int] = sys.version_info[:2]) -> None:
         return
     known = "Python " + " to ".join(f"{major}.{minor}" for major, minor in PROVED_ON)
     here = f"Python {version[0]}.{version[1]}"
-    needed = [(owner, name, purpose) for owner, names, purpose in PRIVATE_NAMES for name in names.split()]
-    gone = [f"{name} ({purpose})" for owner, name, purpose in needed if not hasattr(owner, name)]
+    gone = [
+        f"{name} ({owner!r})" for owner, names in PRIVATE_NAMES for name in names.split() if not hasattr(owner, name)
+    ]
     if gone:
         raise NotImplementedError(
             f"turtle_lesson runs on {known}; {here} has changed what simulated programs need: {', '.join(gone)}"
@@ -320,15 +288,14 @@ def install(stage: Stage = Stage.WORLD) -> None:
         install(Stage.IMPORT)
         _check_python()
         _put_in_place_of_modules()
-    elif not _replaced:
+        sys.meta_path[:0] = FINDERS
+    else:
+        install_finder()
         atexit.register(_at_exit)
     _stages.add(stage)
     for patch in TABLE:
         if patch.stage is stage:
             _put_in(patch)
-    for add, _, when in FINDERS:
-        if when is stage:
-            add()
 
 
 def uninstall() -> None:
@@ -350,9 +317,8 @@ def _take_out() -> None:
             delattr(owner, name)
         else:
             setattr(owner, name, real)
-    for _, remove, stage in FINDERS:
-        if stage in _stages:
-            remove()
+    uninstall_finder()
+    sys.meta_path[:] = [each for each in sys.meta_path if each not in FINDERS]
     _replaced.clear()
     _stages.clear()
     on_import.clear()
@@ -384,14 +350,10 @@ def _at_exit() -> None:
 
 def _put_in_place_of_modules() -> None:
     """What import statements of simulated programs, and of nobody else, get or cause."""
-    for module in (clocks.make_module(), *terminals.make_modules()):
-        on_import[module.__name__] = partial(_itself, module)
+    modules = {module.__name__: module for module in (clocks.make_module(), *terminals.make_modules())}
+    on_import.update({name: partial(modules.get, name) for name in modules})
     on_import.update({toolkit: partial(subprocesses.refuse_toolkit, toolkit) for toolkit in subprocesses.WINDOWS})
     on_import.update({name: partial(_key_library, f"make_{name}") for name in ("curses", "pynput")})
-
-
-def _itself(module: ModuleType) -> ModuleType:
-    return module
 
 
 @cache

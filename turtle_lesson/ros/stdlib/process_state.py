@@ -160,8 +160,9 @@ def getsignal(strand: Strand, signalnum: int) -> Any:
 
 
 def raise_signal(strand: Strand, signalnum: int, /) -> None:
-    """Send this process a signal."""
-    strand.process.send_signal(signalnum)
+    """Send this process a signal; 0 does nothing, as on a real computer."""
+    if signalnum != 0:
+        strand.process.send_signal(module.Signals(signalnum))
 
 
 def kill(real: Any, pid: int, signal: int, /) -> None:
@@ -174,6 +175,9 @@ def kill(real: Any, pid: int, signal: int, /) -> None:
 
 
 REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal)
+
+NO_SIGNALS = ("alarm", "pause", "pthread_kill", "set_wakeup_fd", "setitimer", "sigtimedwait", "sigwait", "sigwaitinfo")
+"""What `signal` has, and a simulated process has not."""
 
 
 def no_signal(what: str) -> NotImplementedError:

@@ -197,7 +197,7 @@ def no_process(what: str) -> NotImplementedError:
     )
 
 
-def start_process(real: Any, self: Any) -> None:
+def start(real: Any, self: Any) -> None:
     """`multiprocessing.Process.start`, which is what all of multiprocessing comes down to."""
     if running_strand() is not None:
         raise no_process("multiprocessing")

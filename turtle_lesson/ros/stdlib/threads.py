@@ -9,6 +9,7 @@ from collections import UserDict
 from collections.abc import Callable, MutableMapping
 from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
+from weakref import WeakMethod
 
 from greenlet import GreenletExit
 
@@ -58,6 +59,12 @@ def is_alive(real: Any, self: Any) -> bool:
     if lock is None:
         return real(self)
     return lock.locked() and not looked_in_vain()
+
+
+def representation(real: Any, self: Any) -> str:
+    """`Thread.__repr__`, which asks the real thread whether it has ended."""
+    lock, text = _lock_of(self), real(self)
+    return text if lock is None or lock.locked() else text.replace(", started ", ", stopped ", 1)
 
 
 def _lock_of(thread: threading.Thread) -> VirtualLock | None:
@@ -213,22 +220,36 @@ def newname(real: Any, name_template: str) -> str:
 
 
 # -- pools -------------------------------------------------------------------------------------------------------------
-# What depends on the machine or on other processes is set: a pool has eight threads unless told otherwise, and counts
-# its names by process. When the main program ends, pools finish what they have been given.
+# What depends on the machine or on other processes is set: a pool has eight threads unless told otherwise, and its name
+# counts by process. When the main program ends, pools finish what they have been given.
 
 MOST_WORKERS = 8
 """How many threads a pool has on a computer with four cores, which a simulated one is."""
 
 
-def next_number(real: Any) -> int:
-    """Numbers the pools, those of each simulated process by themselves."""
-    process = process_here()
-    return real() if process is None else number_of_pool(process)
-
-
 def number_of_pool(process: Process) -> int:
     """The number of one more pool of a process, from 0."""
     return process.next_number("pools") - 1
+
+
+def init(
+    real: Any, self: Any, max_workers: int | None = None, thread_name_prefix: str = "", *arguments: Any, **keywords: Any
+) -> None:
+    """`ThreadPoolExecutor.__init__`."""
+    process = process_here()
+    if process is None:
+        real(self, max_workers, thread_name_prefix, *arguments, **keywords)
+        return
+    workers = MOST_WORKERS if max_workers is None else max_workers
+    real(self, workers, thread_name_prefix or f"ThreadPoolExecutor-{number_of_pool(process)}", *arguments, **keywords)
+    method = WeakMethod(self.shutdown)  # a pool that nobody holds any more ends by itself
+
+    def end() -> None:
+        shutdown = method()
+        if shutdown is not None:
+            shutdown()
+
+    process.before_exit.append(end)
 
 
 class NotInStrands:
@@ -246,45 +267,18 @@ class NotInStrands:
             self._lock.release()
 
 
-def init(real: Any, self: Any, max_workers: int | None = None, *arguments: Any, **keywords: Any) -> None:
-    """`ThreadPoolExecutor.__init__`."""
-    if max_workers is None and process_here() is not None:
-        max_workers = MOST_WORKERS
-    real(self, max_workers, *arguments, **keywords)
-
-
-class _Pools:
-    """By worker of the pools of a process, the queue from which it gets its work."""
-
-    def __init__(self, process: Process) -> None:
-        self.queues: dict[threading.Thread, Any] = {}
-        process.before_exit.append(self._end)
-
-    def _end(self) -> None:
-        """Have all do what they have been given, and end."""
-        workers = [(thread, work) for thread, work in self.queues.items() if thread.is_alive()]
-        for thread, work in workers:
-            executor = thread._args[0]()  # type: ignore[attr-defined]  # a weak reference
-            if executor is not None:
-                executor._shutdown = True
-            work.put(None)
-        for thread, _ in workers:
-            thread.join()
-
-
 class Queues(UserDict[Any, Any]):
-    """By thread, the queue from which it gets its work. Python waits for these threads when it ends.
+    """By thread, the queue from which it gets its work: Python waits for these threads when it ends.
 
-    It need not wait for those of simulated processes: they are kept by the process. The others are in the `real` one.
+    It need not wait for those of simulated processes. The others are in the `real` one.
     """
 
     def __init__(self, real: MutableMapping[Any, Any]) -> None:
         self.data = real  # type: ignore[assignment]  # it is shared, and goes by weak references
 
     def __setitem__(self, thread: Any, work: Any) -> None:
-        strand = vars(thread).get("_strand")
-        own = self.data if strand is None else strand.process.state(_Pools, strand.process).queues
-        own[thread] = work
+        if _lock_of(thread) is None:
+            self.data[thread] = work
 
 
 # -- ending ------------------------------------------------------------------------------------------------------------
