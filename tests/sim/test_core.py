@@ -310,7 +310,7 @@ def test_a_cell_can_drive_the_world_until_a_call_is_done(world: World) -> None:
         time.sleep(seconds)
         return f"slept until {world.now / SECOND:g}"
 
-    assert drive(world.sim, world.notebook, call, 2.5) == "slept until 2.5"
+    assert drive(world.notebook, call, 2.5) == "slept until 2.5"
 
 
 def test_a_cell_that_waits_for_nothing_is_told_so(world: World) -> None:
@@ -322,7 +322,7 @@ def test_a_cell_that_waits_for_nothing_is_told_so(world: World) -> None:
         strand.park()
 
     with pytest.raises(NeverWakes, match="can never happen"):
-        drive(world.sim, world.notebook, waits)
+        drive(world.notebook, waits)
 
 
 @pytest.mark.parametrize("busy", [True, False])
@@ -337,13 +337,13 @@ def test_no_run_passes_the_end_that_a_world_was_given(world: World, busy: bool) 
             world.sim.run_until(5 * SECOND)
         assert world.now == 3 * SECOND
     with pytest.raises(OutOfTime):
-        drive(world.sim, world.notebook, time.sleep, 4.0)
+        drive(world.notebook, time.sleep, 4.0)
     assert ticks == [SECOND, 2 * SECOND] * busy
 
 
 def test_a_call_may_end_just_before_its_world_does(world: World) -> None:
     world.sim.end = 3 * SECOND
-    drive(world.sim, world.notebook, time.sleep, 2.9)
+    drive(world.notebook, time.sleep, 2.9)
     assert world.now == 2.9 * SECOND
 
 
@@ -361,7 +361,7 @@ def test_an_interrupted_call_gets_the_interrupt_and_cleans_up(world: World) -> N
             log.append("cleaned up")
 
     with pytest.raises(KeyboardInterrupt):
-        drive(world.sim, world.notebook, call)
+        drive(world.notebook, call)
     assert log == ["interrupting", "cleaned up"]
 
 
@@ -415,7 +415,7 @@ def test_a_call_that_ignores_being_given_up_is_never_run_again(world: World) -> 
                 log.append("swallowed")
 
     with pytest.raises(DriveTimeout, match="900 s of robot time"):
-        drive(world.sim, world.notebook, stubborn)
+        drive(world.notebook, stubborn)
     assert log == ["swallowed"]
     began = world.now
     world.sim.run_until(began + 10_000 * SECOND)
@@ -429,8 +429,8 @@ def test_an_interrupt_is_raised_even_if_the_call_has_just_ended(world: World) ->
         return "done"
 
     with pytest.raises(KeyboardInterrupt):
-        drive(world.sim, world.notebook, call)
-    assert drive(world.sim, world.notebook, lambda: "the world goes on") == "the world goes on"
+        drive(world.notebook, call)
+    assert drive(world.notebook, lambda: "the world goes on") == "the world goes on"
 
 
 def test_interrupts_in_a_loop_of_calls_never_break_the_world(world: World) -> None:
@@ -447,7 +447,7 @@ def test_interrupts_in_a_loop_of_calls_never_break_the_world(world: World) -> No
     try:
         for _ in range(300):
             try:
-                drive(world.sim, world.notebook, time.sleep, 0.001)
+                drive(world.notebook, time.sleep, 0.001)
             except KeyboardInterrupt:
                 hits += 1
     finally:
@@ -455,7 +455,7 @@ def test_interrupts_in_a_loop_of_calls_never_break_the_world(world: World) -> No
         gun.join()
         signal.signal(signal.SIGINT, previous)
     assert not world.sim.running
-    drive(world.sim, world.notebook, time.sleep, 1.0)
+    drive(world.notebook, time.sleep, 1.0)
 
 
 def test_who_is_interrupted_cleans_up_in_one_instant_even_if_it_looks_at_a_clock(world: World) -> None:

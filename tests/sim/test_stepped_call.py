@@ -127,7 +127,7 @@ def test_a_blocking_call_of_another_cell_steps_it_too(without_steps: tuple[list[
     call.go_on(SECOND)
     while not call.done:
         before = world.now
-        run_blocking.drive(world.sim, world.notebook, time.sleep, 0.23)
+        run_blocking.drive(world.notebook, time.sleep, 0.23)
         assert world.now == before + 230_000_000
     assert call.value == without_steps[0]
     assert trace(lesson)[2] == without_steps[1][2]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..ros.rmw.network import set_conditions
 from ..ros.sim.errors import DriveTimeout, NeverReturns, SimulationError, WorldClosed
 from ..ros.sim.interrupts import work_done
-from ..ros.sim.run_blocking import drive_within
+from ..ros.sim.run_blocking import drive
 from ..ros.sim.simulation import NANOSECONDS
 from .live import LONGEST_CALLBACK, CellNodes
 
@@ -130,7 +130,7 @@ class CheckTarget:
 
     def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Call a function of the learner's as a cell would: it may sleep, and is stopped if it computes without end."""
-        return drive_within(LONGEST_CALLBACK, self._world.sim, self._world.notebook, function, *arguments)
+        return drive(self._world.notebook, function, *arguments, limit=LONGEST_CALLBACK)
 
     def step(self, seconds: float) -> None:
         """Let robot time pass. Raises KeyboardInterrupt, and SimulationError where the world itself cannot go on."""

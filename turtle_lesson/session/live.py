@@ -7,7 +7,7 @@ from collections import deque
 from typing import TYPE_CHECKING
 
 from ..ros.sim.errors import print_error
-from ..ros.sim.run_blocking import drive_within
+from ..ros.sim.run_blocking import drive
 from ..ros.sim.simulation import NANOSECONDS
 from ..ros.stdlib.clocks import real_monotonic
 
@@ -72,12 +72,8 @@ class CellNodes:
         try:
             before = self._world.now
             seconds = (end - before) / NANOSECONDS
-            drive_within(
-                LONGEST_CALLBACK,
-                self._world.sim,
-                self._world.notebook,
-                lambda: executor.spin_until_future_complete(Future(), seconds),
-            )
+            spin = executor.spin_until_future_complete
+            drive(self._world.notebook, spin, Future(), seconds, limit=LONGEST_CALLBACK)
             return self._world.now > before  # an executor that was shut down lets no time pass
         finally:
             for node in added:

@@ -20,7 +20,7 @@ from ..rmw.graph import Graph
 from ..rmw.trace import Trace
 from ..sim.errors import SimulationError, is_library
 from ..sim.process import Output, Process
-from ..sim.run_blocking import drive_within
+from ..sim.run_blocking import drive
 from ..sim.simulation import NANOSECONDS, Simulation
 from ..sim.strand import running_strand
 from ..stdlib import ownership, patches
@@ -199,7 +199,7 @@ class Waiter:
         rate = live_rate(self._world)
         try:
             if rate is None:
-                drive_within(PATIENCE, self._world.sim, self._world.notebook, self._park, process)
+                drive(self._world.notebook, self._park, process, limit=PATIENCE)
             else:
                 self._live = True
                 _play(self._world, rate, lambda: not process.alive)

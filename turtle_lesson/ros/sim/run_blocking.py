@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from .. import hooks
 from .errors import DriveTimeout, NeverWakes, SimulationError
 from .interrupts import Guard
-from .simulation import NANOSECONDS, NEVER, Simulation
+from .simulation import NANOSECONDS, NEVER
 
 if TYPE_CHECKING:
     from .process import Process
+    from .simulation import Simulation
     from .strand import Strand
 
 
@@ -30,18 +31,16 @@ T = TypeVar("T")
 class Call:
     """A call that runs in a strand of its own, and what has become of it."""
 
-    def __init__(
-        self, simulation: Simulation, process: Process, function: Callable[..., Any], *arguments: Any, **keywords: Any
-    ) -> None:
-        self.simulation = simulation
+    def __init__(self, process: Process, function: Callable[..., Any], *arguments: Any, **keywords: Any) -> None:
+        self.simulation = process.simulation
         self.function, self.arguments, self.keywords = function, arguments, keywords
         self.done = False
         self.value: Any = None
         self.error: BaseException | None = None
         self.strand: Strand = process.add_strand(self._run)
         self.strand.thread = _current_thread()  # for the learner it is the cell that calls
-        simulation.driven = self.strand
-        simulation.put_back(self.strand)
+        self.simulation.driven = self.strand
+        self.simulation.put_back(self.strand)
 
     def _run(self) -> None:
         try:
@@ -61,21 +60,18 @@ class Call:
             self.error = error
 
 
-def drive(simulation: Simulation, process: Process, function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
+def drive(
+    process: Process, function: Callable[..., T], *arguments: Any, limit: int = DRIVE_LIMIT, **keywords: Any
+) -> T:
     """Run the simulation until `function(*arguments, **keywords)`, called as part of `process`, has returned.
 
-    Raises what the function raises, and KeyboardInterrupt if the user interrupts: the call then gets it, too.
+    Raises what the function raises, DriveTimeout after `limit` ns of robot time, and KeyboardInterrupt if the user interrupts:
+    the call then gets it, too.
     """
-    return drive_within(DRIVE_LIMIT, simulation, process, function, *arguments, **keywords)
-
-
-def drive_within(
-    limit: int, simulation: Simulation, process: Process, function: Callable[..., T], *arguments: Any, **keywords: Any
-) -> T:
-    """The same with another limit of robot time (ns), after which DriveTimeout is raised."""
+    simulation = process.simulation
     with Guard(simulation) as guard:  # from here on an interrupt is noted, and raised as the very last act
         simulation.check_it_can_run()
-        call = Call(simulation, process, function, *arguments, **keywords)
+        call = Call(process, function, *arguments, **keywords)
         simulation.run_guarded(simulation.now + limit)
         simulation.driven = None
         if not call.done:

@@ -123,7 +123,7 @@ class VirtualLock:
         notebook = notebook_here()
         if notebook is None:
             return self._lock.acquire(True, timeout)
-        taken = drive(notebook.simulation, notebook, self.acquire, True, timeout)
+        taken = drive(notebook, self.acquire, True, timeout)
         if taken:
             self.owner = None  # the cell has it now, and not the strand that waited for the cell
         return taken

@@ -129,7 +129,7 @@ def _sleep_of_a_cell(seconds: float) -> bool:
     threads = [strand.thread for strand in notebook.strands if not strand.dead]
     if not any(thread is not None and "_virtual" in vars(thread) for thread in threads):
         return False
-    drive(notebook.simulation, notebook, time.sleep, seconds)
+    drive(notebook, time.sleep, seconds)
     return True
 
 

@@ -41,8 +41,7 @@ def drives_the_simulation(function: Callable[..., T]) -> Callable[..., T]:
 
 def drive(function: Callable[..., T], *arguments: Any, **keywords: Any) -> T:
     """Run the simulation until `function(*arguments, **keywords)`, as part of the notebook's process, is done."""
-    world = current_world()
-    return run_blocking.drive(world.sim, world.notebook, function, *arguments, **keywords)
+    return run_blocking.drive(current_world().notebook, function, *arguments, **keywords)
 
 
 def spin_live(function: Callable[[], None]) -> None:
@@ -53,10 +52,10 @@ def spin_live(function: Callable[[], None]) -> None:
     world = current_world()
     simulation = world.sim
     if simulation.end != NEVER:
-        run_blocking.drive_within(simulation.end - simulation.now + 1, simulation, world.notebook, function)
+        run_blocking.drive(world.notebook, function, limit=simulation.end - simulation.now + 1)
         return
     simulation.check_it_can_run()
-    call = Call(simulation, world.notebook, function)
+    call = Call(world.notebook, function)
     try:
         began, origin, told = real_monotonic(), simulation.now, False
         while not call.done:
