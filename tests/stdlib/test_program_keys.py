@@ -133,6 +133,12 @@ def test_ctrl_c_interrupts_a_terminal_that_has_not_given_that_up(lesson: Lesson,
     assert process.exit_code == 0
 
 
+def test_ctrl_c_also_interrupts_a_program_that_reads_no_key_now(lesson: Lesson, begin: Begin) -> None:
+    process = begin("import sys, time, tty\ntty.setcbreak(sys.stdin)\ntime.sleep(10)")
+    lesson.press("ctrl+c")
+    assert process.exit_code == -2
+
+
 @pytest.mark.parametrize(
     "look",
     [

@@ -119,8 +119,8 @@ Use arrow keys to move the turtle.
 Use G|B|V|C|D|E|R|T keys to rotate to absolute orientations. 'F' to cancel a rotation.
 'Q' to quit."""
 
-SPEEDS = {"up": (1.0, 0.0), "down": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
-"""Forward and turning to the left, by the arrow key."""
+SPEEDS = {"\x1b[A": (1.0, 0.0), "\x1b[B": (-1.0, 0.0), "\x1b[D": (0.0, 1.0), "\x1b[C": (0.0, -1.0)}
+"""Forward and turning to the left, by what a terminal sends for an arrow key: up, down, left, right."""
 
 HEADINGS = {
     "g": 0.0, "t": 0.7854, "r": 1.5708, "e": 2.3562, "d": 3.1416, "c": -2.3562, "v": -1.5708, "b": -0.7854,
@@ -166,9 +166,10 @@ def turtle_teleop_key() -> None:
     threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
     print(HELP)
     keyboard = ProgramInput(current_process())
+    keyboard.raw = True
     try:
-        while (key := keyboard.next_key(None)) not in ("q", None):
-            node.do(str(key))
+        while (key := keyboard.read(1)) not in ("q", ""):
+            node.do(key + keyboard.take(2) if key == "\x1b" else key)
     except KeyboardInterrupt:
         pass
     rclpy.try_shutdown()

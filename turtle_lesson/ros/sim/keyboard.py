@@ -99,7 +99,7 @@ class Keyboard:
 
     def _hearing(self) -> list[KeyReader]:
         """The readers that hear the next key: those that hear all, and the newest of those with a terminal."""
-        self._readers = [reader for reader in self._readers if reader.process.alive and not reader.closed]
+        self._readers = [reader for reader in self._readers if reader.process.alive and not reader.stopped]
         focus = [reader for reader in self._readers if reader.has_terminal][-1:]
         return [reader for reader in self._readers if not reader.has_terminal or reader in focus]
 
@@ -153,39 +153,38 @@ class Keyboard:
 
 
 class KeyReader:
-    """Something in a program that reads keys: its terminal, or a listener that hears all keys of the computer.
+    """What hears keys in a program: a listener, which hears all keys of the computer. A terminal is a kind of its own.
 
     Attributes:
         events: the names of keys, each with whether it was pressed or let go of, that nobody has read yet.
-        closed: whether it reads no more.
+        stopped: whether it hears no more.
     """
 
-    def __init__(self, process: Process, *, has_terminal: bool) -> None:
+    has_terminal = False
+
+    def __init__(self, process: Process) -> None:
         self.process = process
-        self.has_terminal = has_terminal
         self.events: deque[tuple[str, bool]] = deque()
-        self.closed = False
+        self.stopped = False
+        self._heard = 0
         self._waiting: list[Strand] = []
         self._said = False
 
     def hear(self, name: str, down: bool) -> None:
-        """A key was pressed, or let go of; a terminal knows nothing of the latter."""
-        if down or not self.has_terminal:
-            parts = name.split("+") if "+" in name[1:] and not self.has_terminal else [name]
-            self.events.extend((part, down) for part in parts)
-            self.tell()
+        """A key was pressed, or let go of."""
+        self.events.extend((part, down) for part in (name.split("+") if "+" in name[1:] else [name]))
+        self.notify()
 
-    def tell(self) -> None:
+    def notify(self) -> None:
         """Have those who wait look again."""
+        self._heard += 1
         for strand in self._waiting:
             strand.simulation.wake(strand)
 
     def wait(self, seconds: float | None = None) -> bool:
-        """Hold the running strand up until there is an event, at most `seconds` of robot time; whether there is one."""
-        simulation = self.process.simulation
+        """Hold the running strand up until something is heard, at most `seconds` of robot time; whether it was."""
+        simulation, heard = self.process.simulation, self._heard
         simulation.keyboard.reads_keys(self)
-        if self.events:
-            return True
         if not self._said and not simulation.keyboard.has_keys:
             print(NO_KEYS.format(name=self.process.name), file=self.process.stderr or sys.stderr)
         self._said = True
@@ -196,11 +195,11 @@ class KeyReader:
             simulation.at(deadline, simulation.wake, strand)
         self._waiting.append(strand)
         try:
-            while not self.events and not self.closed and (deadline is None or simulation.now < deadline):
+            while self._heard == heard and (deadline is None or simulation.now < deadline):
                 simulation.park(strand)
         finally:
             self._waiting.remove(strand)
-        return bool(self.events)
+        return self._heard > heard
 
 
 def _is_between_cells() -> bool:

@@ -195,8 +195,11 @@ class Listener(threading.Thread):
         strand = running_strand()
         if strand is None:
             raise RuntimeError("a Listener hears keys in a program (ros2 run, python3 FILE) only, not in a cell")
-        self._reader = reader = KeyReader(strand.process, has_terminal=False)
-        while not self._stopped and reader.wait():
+        self._reader = reader = KeyReader(strand.process)
+        while not self._stopped:
+            if not reader.events:
+                reader.wait()
+                continue
             name, down = reader.events.popleft()
             callback = self._callbacks[down]
             key = Key[name] if name in SENT else KeyCode.from_char(name)
@@ -207,8 +210,8 @@ class Listener(threading.Thread):
         """End it. It cannot be started once more."""
         self._stopped = True
         if self._reader is not None:
-            self._reader.closed = True
-            self._reader.tell()
+            self._reader.stopped = True
+            self._reader.notify()
 
     @property
     def running(self) -> bool:

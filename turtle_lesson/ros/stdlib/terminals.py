@@ -15,7 +15,7 @@ import os
 import select as real_select
 import signal
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from importlib.util import find_spec
 from io import TextIOBase
 from types import ModuleType
@@ -42,8 +42,8 @@ IFLAG, LFLAG, CC = 0, 3, 6
 """The places of input flags, local flags and characters in the settings."""
 
 
-class ProgramInput(TextIOBase):
-    """The standard input of a program.
+class ProgramInput(KeyReader, TextIOBase):
+    """The standard input of a program: its terminal, unless the process has a file or pipe for it.
 
     Attributes:
         settings: the terminal's settings; `apply` changes them.
@@ -54,12 +54,12 @@ class ProgramInput(TextIOBase):
         typed: characters that were typed and not read.
     """
 
+    has_terminal = True
     name = "<stdin>"
     encoding = "utf-8"
 
     def __init__(self, process: Process) -> None:
-        self.process = process
-        self.keys = KeyReader(process, has_terminal=True)
+        super().__init__(process)
         # as Linux begins: ICRNL and IXON; OPOST and ONLCR; CS8 and CREAD; ISIG, ICANON, ECHO, ECHOE, ECHOK and IEXTEN
         characters = [b"\x03", b"\x1c", b"\x7f", b"\x00", b"\x04", b"\x00", b"\x01", *[b"\x00"] * 25]
         self.settings: Settings = [0x500, 0x5, 0xB0, 0x803B, 15, 15, characters]
@@ -69,6 +69,14 @@ class ProgramInput(TextIOBase):
         self.patience: float | None = None
         self.typed = ""
         self._given = 0
+
+    def hear(self, name: str, down: bool) -> None:
+        """A key was pressed: Ctrl-C interrupts, all others are characters. A terminal knows of no key that is let go of."""
+        if down and name == "ctrl+c" and self.signals:
+            self.process.send_signal(signal.SIGINT)
+        elif down:
+            self.typed += "\r" if self.returns and name == "enter" else SENT.get(name, name)
+            self.notify()
 
     def ask(self, prompt: object = "", /) -> str:
         """What `input(prompt)` gives: the next line. Raises EOFError if there is none."""
@@ -112,45 +120,21 @@ class ProgramInput(TextIOBase):
         simulation = self.process.simulation
         end = None if seconds is None else simulation.now + round(seconds * 1e9)
         while self.isatty():
-            self._take_keys()
             if self.typed if self.raw else "\n" in self.typed or simulation.keyboard.lines:
                 return True
-            if not self.keys.wait(None if end is None else max(0, end - simulation.now) / 1e9):
+            if not self.wait(None if end is None else max(0, end - simulation.now) / 1e9):
                 return False
         return True
 
-    def next_key(self, seconds: float | None) -> str | None:
-        """The name of the next key, None if none is pressed within `seconds` of robot time (None: wait for it)."""
-        while self.keys.wait(seconds):
-            for name in self._pressed():
-                if SENT.get(name, name):
-                    return name
-        return None
-
     def _read_more(self) -> bool:
-        """Read one more line, or a key; whether there is one."""
+        """Read one more line, or wait for a key; whether there is one."""
         if self.raw and self.isatty():
-            there = self.keys.wait(self.patience)
-            self._take_keys()
-            return there
+            return self.wait(self.patience)
         try:
             self.typed += self.ask() + "\n"
         except EOFError:
             return False
         return True
-
-    def _take_keys(self) -> None:
-        for name in self._pressed():
-            self.typed += "\r" if self.returns and name == "enter" else SENT.get(name, name)
-
-    def _pressed(self) -> Iterator[str]:
-        """The names of the keys that were pressed and not read; Ctrl-C is none of them where it interrupts."""
-        while self.keys.events:
-            name, _ = self.keys.events.popleft()
-            if name == "ctrl+c" and self.signals:
-                self.process.send_signal(signal.SIGINT)
-            else:
-                yield name
 
     def take(self, count: int) -> str:
         """So many characters at most, of those that were typed."""
@@ -167,12 +151,7 @@ class ProgramInput(TextIOBase):
         tenths, least = (ord(each) if isinstance(each, bytes) else each for each in characters[FLAGS["VTIME"] :][:2])
         self.patience = tenths / 10 if self.raw and not least else None
         if self.raw:
-            self.process.simulation.keyboard.reads_keys(self.keys)
-
-    def flush_keys(self) -> None:
-        """Forget what was pressed and not read."""
-        self.typed = ""
-        self.keys.events.clear()
+            self.process.simulation.keyboard.reads_keys(self)
 
 
 def copied(settings: Settings) -> Settings:
@@ -214,14 +193,14 @@ def tcsetattr(fd: object, when: int, attributes: Settings, /) -> None:
     """Change a terminal's settings."""
     terminal = _terminal(fd)
     if when == FLAGS["TCSAFLUSH"]:
-        terminal.flush_keys()
+        terminal.typed = ""
     terminal.apply(attributes)
 
 
 def tcflush(fd: object, queue: int, /) -> None:
     """Forget what was typed and not read."""
     if queue != FLAGS["TCOFLUSH"]:
-        _terminal(fd).flush_keys()
+        _terminal(fd).typed = ""
 
 
 def select(
