@@ -177,7 +177,6 @@ class Watchdog:
         self._guard: Guard | None = None
         self._change = threading.RLock()  # or the main thread could be interrupted when its run is over
         self._wanted = threading.Event()
-        self._rests = True
         self._thread: threading.Thread | None = None
 
     def watch(self, guard: Guard | None) -> Guard | None:
@@ -187,9 +186,9 @@ class Watchdog:
             if guard is not None:
                 guard.seen = None
                 if self._thread is None:
-                    self.start()
-                if self._rests:
-                    self._rests = False
+                    self._thread = threading.Thread(target=self._loop, name="turtle_lesson watchdog", daemon=True)
+                    self._thread.start()
+                if not self._wanted.is_set():
                     self._wanted.set()
         return before
 
@@ -197,12 +196,6 @@ class Watchdog:
     def interrupted(self) -> bool:
         """Whether the user has interrupted the run that is watched."""
         return self._guard is not None and self._guard.interrupted
-
-    def start(self) -> None:
-        """Have the thread run."""
-        if self._thread is None:
-            self._thread = threading.Thread(target=self._loop, name="turtle_lesson watchdog", daemon=True)
-            self._thread.start()
 
     def begin_anew(self) -> None:
         """In a forked process no thread but the one that forked goes on, and what others held is held for ever."""
@@ -214,7 +207,6 @@ class Watchdog:
         if thread is not None:
             self._wanted.set()
             thread.join()
-            self._rests = True
             self._wanted.clear()
 
     def _loop(self) -> None:
@@ -228,8 +220,7 @@ class Watchdog:
         with self._change:
             if self._guard is not None:
                 self._look_at(self._guard)
-            elif not self._rests:
-                self._rests = True
+            else:
                 self._wanted.clear()
 
     def _look_at(self, guard: Guard) -> None:

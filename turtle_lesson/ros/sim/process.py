@@ -11,6 +11,7 @@ import signal
 import sys
 from collections import Counter
 from collections.abc import Callable, Sequence
+from functools import partial
 from io import StringIO
 from random import Random
 from typing import Any, Protocol, TypeVar
@@ -129,11 +130,7 @@ class Process:
 
     def start(self, program: Callable[[], object], start_up: int = 0) -> None:
         """Begin to run `program` as the process's main strand, `start_up` ns from now. Until then it can be ended as ever."""
-
-        def main() -> None:
-            self._run_main(program)
-
-        self.main_strand = self.add_strand(main)
+        self.main_strand = self.add_strand(partial(self._run_main, program))
         self.main_strand.parked = True
         if start_up:
             self.simulation.at(self.simulation.now + start_up, self.simulation.wake, self.main_strand)
@@ -167,21 +164,18 @@ class Process:
 
     def send_signal(self, number: int) -> None:
         """Have the process get a signal: its own handler is called in the main strand, or does what Python does."""
-        main, hook = self.main_strand, self.signal_hook
-        if hook is not None and self.alive and hook.hear(number):
+        main, hook, handler = self.main_strand, self.signal_hook, self.signal_handlers.get(number)
+        if not self.alive or (hook is not None and hook.hear(number)):
             return
-        if self.alive and main is not None and main and number in self.signal_handlers:
-            self._handle(self.signal_handlers[number], number, main)
+        if main and handler is not None:
+            if main is running_strand():
+                handler(number, sys._getframe(1))
+            else:
+                self.simulation.call_in(main, lambda: handler(number, sys._getframe(2)))
         elif number == signal.SIGINT:
             self._end_main(KeyboardInterrupt())
         else:
             self.kill()
-
-    def _handle(self, handler: Callable[..., object], number: int, main: Strand) -> None:
-        if main is running_strand():
-            handler(number, sys._getframe(2))
-        else:
-            self.simulation.call_in(main, lambda: handler(number, sys._getframe(2)))
 
     def kill(self) -> None:
         """End the process without asking; its `finally` blocks still run, but none of them may wait."""

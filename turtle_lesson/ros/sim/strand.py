@@ -180,31 +180,22 @@ class Cell:
 
     def show_in(self, context: Context) -> None:
         """Copy what has changed since an earlier cell into a context that came from that one."""
-        before = context.get(_shown)
-        if before is None or before is self:
-            return
-        changes = [(_shown, self), *self._changes(before, context)]
-        visitor = greenlet(_set_all)  # a context in which somebody waits cannot be run in once more, only lived in
+        visitor = greenlet(
+            self.show_here
+        )  # a context in which somebody waits cannot be run in once more, only lived in
         visitor.gr_context = context
-        visitor.switch(changes)
+        visitor.switch()
 
     def show_here(self) -> None:
         """The same for the context of the running code."""
         before = _shown.get(None)
-        if before is not None and before is not self:
-            _set_all([(_shown, self), *self._changes(before, copy_context())])
-
-    def _changes(self, before: Cell, context: Context) -> list[tuple[ContextVar[Any], Any]]:
-        return [
-            (variable, value)
-            for variable, value in self._values.items()
-            if (old := before._values.get(variable, _MISSING)) is not value and context.get(variable, _MISSING) is old
-        ]
-
-
-def _set_all(changes: list[tuple[ContextVar[Any], Any]]) -> None:
-    for variable, value in changes:
-        variable.set(value)
+        if before is None or before is self:
+            return
+        for variable, value in self._values.items():
+            old = before._values.get(variable, _MISSING)
+            if old is not value and variable.get(_MISSING) is old:
+                variable.set(value)
+        _shown.set(self)
 
 
 _shown: ContextVar[Cell] = ContextVar("turtle_lesson.cell")

@@ -20,33 +20,26 @@ real_sleep = time.sleep
 real_monotonic = time.monotonic
 
 
-def _seconds(origin: int) -> Callable[..., float]:
+def _clock(origin: int, *, whole: bool = False) -> Callable[..., float]:
+    """A clock that shows `origin` (ns) when a world starts, in s or as a whole number of ns."""
+
     def read(real: Callable[[], float]) -> float:
         strand = running_strand()
-        if strand is not None:
-            return (origin + strand.simulation.read_clock()) / NANOSECONDS
-        return real()
-
-    return read
-
-
-def _nanoseconds(origin: int) -> Callable[..., int]:
-    def read(real: Callable[[], int]) -> int:
-        strand = running_strand()
-        if strand is not None:
-            return origin + strand.simulation.read_clock()
-        return real()
+        if strand is None:
+            return real()
+        now = origin + strand.simulation.read_clock()
+        return now if whole else now / NANOSECONDS
 
     return read
 
 
 CLOCKS: dict[str, Callable[..., Any]] = {
-    "time": _seconds(EPOCH),
-    "monotonic": _seconds(0),
-    "perf_counter": _seconds(0),
-    "time_ns": _nanoseconds(EPOCH),
-    "monotonic_ns": _nanoseconds(0),
-    "perf_counter_ns": _nanoseconds(0),
+    "time": _clock(EPOCH),
+    "monotonic": _clock(0),
+    "perf_counter": _clock(0),
+    "time_ns": _clock(EPOCH, whole=True),
+    "monotonic_ns": _clock(0, whole=True),
+    "perf_counter_ns": _clock(0, whole=True),
 }
 """By name in `time`, the clocks; `time.sleep` is in `threads.py`."""
 
