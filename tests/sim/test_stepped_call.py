@@ -111,7 +111,7 @@ def test_steps_change_nothing(steps: str, without_steps: tuple[list[object], lis
 def test_neither_do_a_dashboard_and_what_else_runs_the_world(without_steps: tuple[list[object], list[object]]) -> None:
     lesson, call = stepped(drive, seed=3)
     lesson.dashboard()
-    assert not call._begun, "the function stands before its first line"
+    assert not call._greenlet, "the function stands before its first line"
     for number in range(40):
         lesson.run(0.03)
         lesson._player._run(lesson._world.now + SECOND // 50)  # what live mode does
@@ -301,4 +301,4 @@ def test_one_that_never_began_is_forgotten() -> None:
     lesson, call = stepped(drive, simulator=False)
     call.close()
     lesson.run(1)
-    assert not call._begun and lesson.now == 1
+    assert not call._greenlet and lesson.now == 1

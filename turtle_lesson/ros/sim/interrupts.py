@@ -18,8 +18,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator
-from itertools import chain, takewhile
+from itertools import takewhile
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -100,25 +99,25 @@ class Guard:
         elif tripped is None:
             self.interrupted = True
             self.simulation.halt()
-            if any(map(_asks_the_user, _frames(frame))):
+            if "question" in _kinds(frame):
                 raise KeyboardInterrupt  # as Ctrl-C at a terminal's prompt: nothing else would end the question
         elif tripped == self.simulation.now and not _must_go_on(frame):  # the clock still stands still
             strand = running_strand()
             below = None if strand is None else strand.gr_frame  # where a turn is taken on another stack
-            is_learners_code = any(map(_is_learners, chain(_frames(frame), _frames(below))))
+            kinds = [*_kinds(frame), *_kinds(below)]
             if self.interrupted:
-                self._stop(strand, frame if is_learners_code else None)
-            elif self.waiting or not is_learners_code:
+                self._stop(strand, kinds)
+            elif self.waiting or "learner" not in kinds:
                 self._say_that_it_goes_on(strand)
             else:
                 self._give_up_on(strand, f"has computed for {patience:g} s without letting any time pass")
 
-    def _stop(self, strand: Strand | None, learners: FrameType | None) -> None:
+    def _stop(self, strand: Strand | None, kinds: list[str]) -> None:
         """Have the run end: leave the strand in the middle of what it computes, for the next run; or end a learner's code."""
         now = self.simulation.now
         if strand is None:
             raise KeyboardInterrupt  # it is no process that computes, but what the cell itself does
-        if learners and (self.waiting or strand.frozen_at == now or any(map(_imports, _frames(learners)))):
+        if "learner" in kinds and (self.waiting or strand.frozen_at == now or "import" in kinds):
             raise KeyboardInterrupt  # a module that is frozen half imported could have other threads wait for its lock
         strand.frozen_at = now
         self.simulation.put_back(strand)
@@ -149,25 +148,6 @@ class Guard:
             "let a timer call it again. To wait inside a loop, call time.sleep(seconds); to wait for another callback, "
             "await a future."
         )
-
-
-def _must_go_on(frame: FrameType | None) -> bool:
-    """Whether Jupyter, as in a print, or an import is at work here: it may hold a lock that Jupyter's threads wait for."""
-    return any(_imports(each) or _package(each) in JUPYTER for each in _library_frames(frame))
-
-
-def _learners_call(frame: FrameType | None) -> FrameType | None:
-    """The call of a learner's function that goes on here, the outermost since an executor or Jupyter called; or None."""
-    call = None
-    for each in _frames(frame):
-        if (
-            each.f_globals.get("__name__", "").startswith(("rclpy._executor", "rclpy.executors"))
-            or _package(each) in JUPYTER
-        ):
-            break
-        if _is_learners(each):
-            call = each
-    return call
 
 
 class Watchdog:
@@ -267,44 +247,56 @@ if hasattr(os, "register_at_fork"):
 
 # -- what the main thread is doing ---------------------------------------------------------------------------------------
 
+_ASKING = {"raw_input", "_input_request", "_answer_of_the_cell"}
+"""The functions in which Jupyter's input(), and that of a program in a script, wait for the user."""
 
-def _frames(frame: FrameType | None) -> Iterator[FrameType]:
-    """A frame and those that have called it."""
+_KINDS = {
+    **dict.fromkeys(JUPYTER, "jupyter"),
+    **dict.fromkeys(("importlib._bootstrap", "importlib._bootstrap_external"), "import"),
+    **dict.fromkeys(("bdb", "pdb", "IPython.core.debugger"), "debugger"),
+    "rclpy.executors": "executor",
+}
+"""What kind of code a module, or a whole package, is."""
+
+
+def _kind(frame: FrameType) -> str:
+    """What kind of code a frame runs: a "question" to the user, a "learner"'s, one of `_KINDS`, or of another "library"."""
+    if frame.f_code.co_name in _ASKING:
+        return "question"
+    if is_learners(frame.f_code.co_filename):
+        return "learner"
+    name = frame.f_globals.get("__name__", "")
+    return _KINDS.get(name) or _KINDS.get(name.partition(".")[0], "library")
+
+
+def _kinds(frame: FrameType | None) -> list[str]:
+    """The kinds of a frame and of those that have called it."""
+    kinds = []
     while frame is not None:
-        yield frame
+        kinds.append(_kind(frame))
         frame = frame.f_back
+    return kinds
 
 
-def _library_frames(frame: FrameType | None) -> Iterator[FrameType]:
-    """Those of libraries that a learner's code has called here."""
-    return takewhile(lambda each: not _is_learners(each), _frames(frame))
-
-
-def _is_learners(frame: FrameType) -> bool:
-    return is_learners(frame.f_code.co_filename)
-
-
-def _package(frame: FrameType) -> str:
-    return frame.f_globals.get("__name__", "").partition(".")[0]
-
-
-def _imports(frame: FrameType) -> bool:
-    """Whether this is Python's import of a module."""
-    return frame.f_globals.get("__name__") in _IMPORTLIB
-
-
-def _asks_the_user(frame: FrameType) -> bool:
-    """Whether this is Jupyter's input(), or the one of a program in a script."""
-    return frame.f_code.co_name in _ASKING
+def _kinds_called(frame: FrameType | None) -> list[str]:
+    """The kinds of what a learner's code has called here."""
+    return list(takewhile(lambda kind: kind != "learner", _kinds(frame)))
 
 
 def _is_excused(frame: FrameType | None) -> bool:
     """Whether what the main thread does now does not count: it imports a library, or waits for its user."""
-    return any(map(_imports, _library_frames(frame))) or any(
-        _asks_the_user(each) or each.f_globals.get("__name__") in _DEBUGGERS for each in _frames(frame)
-    )
+    return "import" in _kinds_called(frame) or not {"question", "debugger"}.isdisjoint(_kinds(frame))
 
 
-_IMPORTLIB = {"importlib._bootstrap", "importlib._bootstrap_external"}
-_DEBUGGERS = {"bdb", "pdb", "IPython.core.debugger"}
-_ASKING = {"raw_input", "_input_request", "_answer_of_the_cell"}
+def _must_go_on(frame: FrameType | None) -> bool:
+    """Whether Jupyter, as in a print, or an import is at work here: it may hold a lock that Jupyter's threads wait for."""
+    return not {"jupyter", "import"}.isdisjoint(_kinds_called(frame))
+
+
+def _learners_call(frame: FrameType | None) -> FrameType | None:
+    """The call of a learner's function that goes on here, the outermost since an executor or Jupyter called; or None."""
+    call = None
+    while frame is not None and _kind(frame) not in ("executor", "jupyter"):
+        call = frame if _kind(frame) == "learner" else call
+        frame = frame.f_back
+    return call

@@ -98,7 +98,7 @@ class Process:
         self._states: dict[type, Any] = {}
         self.followers: list[Process] = []
         self.before_exit: list[Callable[[], None]] = []
-        self.exit_functions: list[Callable[[], object]] = []
+        self.exit_functions: list[partial[object]] = []
         self.at_exit: list[Callable[[], None]] = []
         self.signal_handlers: dict[int, Any] = {}
         self.signal_hook: SignalHook | None = None

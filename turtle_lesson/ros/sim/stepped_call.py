@@ -49,7 +49,6 @@ class SteppedCall:
         self.error: BaseException | None = None
         self._around = around
         self._greenlet: Any = greenlet(self._call)
-        self._begun = False
         self._waits = False  # it has asked for a run …
         self._met = False  # … and that is over, or the call for whose sake it was has returned
         self._limit = 0
@@ -61,7 +60,9 @@ class SteppedCall:
         simulation.stepped = self
 
     def __repr__(self) -> str:
-        return f"<SteppedCall of {self.function!r}, {'done' if self.done else 'begun' if self._begun else 'not begun'}>"
+        return (
+            f"<SteppedCall of {self.function!r}, {'done' if self.done else 'begun' if self._greenlet else 'not begun'}>"
+        )
 
     @property
     def runs_here(self) -> bool:
@@ -71,7 +72,7 @@ class SteppedCall:
     @property
     def computes(self) -> bool:
         """Whether the function's own code is running, and not the simulation."""
-        return self._begun and not self._waits and not self.done
+        return bool(self._greenlet) and not self._waits
 
     def _call(self) -> None:
         try:
@@ -88,7 +89,7 @@ class SteppedCall:
         """Carry out `Simulation.run_guarded`: of the function, by asking for it; of anybody else, by stepping the function."""
         if self.runs_here:
             self._ask(limit, time_passes)
-        elif not self._begun and limit <= self.simulation.now + 1:
+        elif not self._greenlet and limit <= self.simulation.now + 1:
             self.simulation.run_events(limit, time_passes)  # a widget settles: that is no reason to begin
         else:
             self._step(limit, time_passes)
@@ -114,12 +115,12 @@ class SteppedCall:
         """End the function, since its world is closed: its `finally` blocks run, but the world does not."""
         self._refusals = 0
         for _ in range(PATIENCE):
-            if self._begun and not self.done and not self.runs_here:
+            if self._greenlet and not self.runs_here:
                 with self._surroundings():
                     self._waits = False
                     self._greenlet.parent = running_greenlet()
                     self._greenlet.throw(GreenletExit)
-        if self._begun and not self.done and not self.runs_here:
+        if self._greenlet and not self.runs_here:
             undead.append(self._greenlet)
         if self.simulation.stepped is self:
             self.simulation.stepped = None
@@ -177,7 +178,7 @@ class SteppedCall:
     def _switch(self, driven: Strand | None) -> None:
         """Let the function's own code go on until it asks for the next run, or ends. `driven` is the caller's own call."""
         simulation = self.simulation
-        self._begun, self._waits, self._met = True, False, False
+        self._waits = self._met = False
         self._greenlet.parent = running_greenlet()
         simulation.show_cell_to(self._greenlet)
         simulation.driven = self._driven

@@ -139,9 +139,6 @@ class _Facade(type):
         real_bases = tuple(getattr(base, behind) if isinstance(base, _Facade) else base for base in bases)
         return type(real_bases[0])(name, real_bases, namespace, **keywords)
 
-    def __init__(cls, name: str, bases: tuple[type, ...], namespace: dict[str, Any], **keywords: Any) -> None:
-        super().__init__(name, bases, namespace)
-
     def __getattr__(cls, name: str) -> Any:
         return getattr(cls._real, name)
 

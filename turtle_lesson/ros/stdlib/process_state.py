@@ -209,8 +209,7 @@ def unregister(real: Any, func: Any, /) -> None:
     if process is None or is_library(sys._getframe(1).f_code.co_filename):
         real(func)
     else:
-        kept = [each for each in process.exit_functions if not isinstance(each, partial) or each.func != func]
-        process.exit_functions[:] = kept
+        process.exit_functions[:] = [each for each in process.exit_functions if each.func != func]
 
 
 def _own_process() -> Process | None:

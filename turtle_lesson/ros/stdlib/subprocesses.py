@@ -15,6 +15,7 @@ import signal
 import subprocess
 from collections.abc import Callable
 from importlib.util import find_spec
+from inspect import signature
 from typing import Any
 
 from .. import hooks
@@ -23,6 +24,7 @@ from ..sim.simulation import NANOSECONDS, NEVER
 from ..sim.strand import running_strand
 
 _Real = subprocess.Popen
+_SIGNATURE = signature(_Real)
 _STEP = 1_000_000  # how far (ns) the world goes on between two looks at a child, as the real Popen.wait looks
 
 
@@ -35,7 +37,7 @@ class WorldPopen(_Real):
     _terminated = False
 
     def __init__(self, args: Any, *positional: Any, **given: Any) -> None:
-        everything = {**dict(zip(_POSITIONAL, positional, strict=False)), **given}
+        everything = _SIGNATURE.bind(args, *positional, **given).arguments
         plan = hooks.plan_child(args, bool(everything.get("shell")))
         if plan is None:
             super().__init__(args, *positional, **given)
@@ -109,11 +111,6 @@ class WorldPopen(_Real):
 
 
 WorldPopen.__name__ = "Popen"
-
-_POSITIONAL = (
-    "bufsize", "executable", "stdin", "stdout", "stderr", "preexec_fn", "close_fds", "shell", "cwd", "env",
-)  # fmt: skip
-"""The names of `Popen`'s arguments after the first, when they are given by their place."""
 
 _OWN_TERMINAL = ("start_new_session", "preexec_fn", "process_group")
 """With any of these a child is out of reach of its parent's Ctrl-C (preexec_fn is os.setsid, as a rule)."""

@@ -39,7 +39,16 @@ def start(real: Any, self: Any) -> None:
         raise RuntimeError("thread.__init__() not called")
     if self._started.is_set():
         raise RuntimeError("threads can only be started once")
-    _begin(self, process)
+    simulation, starter = process.simulation, running_strand()
+    strand = process.add_strand(lambda: _run(self, strand))
+    become(self, strand)
+    strand.parked = True
+    simulation.wake(strand)
+    if starter is not None:
+        simulation.at(simulation.now, simulation.wake, starter)
+        simulation.park(starter)
+    elif not simulation.running:
+        simulation.settle()
 
 
 def join(real: Any, self: Any, timeout: float | None = None) -> None:
@@ -70,19 +79,6 @@ def representation(real: Any, self: Any) -> str:
 def _lock_of(thread: threading.Thread) -> VirtualLock | None:
     """The lock that a simulated thread holds until it ends; None for a real one, and for one that was not started."""
     return vars(thread).get("_virtual")
-
-
-def _begin(thread: threading.Thread, process: Process) -> None:
-    simulation, starter = process.simulation, running_strand()
-    strand = process.add_strand(lambda: _run(thread, strand))
-    become(thread, strand)
-    strand.parked = True
-    simulation.wake(strand)
-    if starter is not None:
-        simulation.at(simulation.now, simulation.wake, starter)
-        simulation.park(starter)
-    elif not simulation.running:
-        simulation.settle()
 
 
 def _run(thread: threading.Thread, strand: Strand) -> None:
@@ -300,16 +296,12 @@ def wind_down(process: Process) -> None:
     except KeyboardInterrupt as error:  # Ctrl-C ends the waiting
         print(f"Exception ignored in: <module 'threading'>\n{format_error(error)}", end="", file=sys.stderr)
     while process.exit_functions:
-        _call(process.exit_functions.pop())
-
-
-def _call(function: Callable[[], object]) -> None:
-    try:
-        function()
-    except SystemExit:
-        pass
-    except Exception as error:
-        function = getattr(function, "func", function)
-        name = getattr(function, "__qualname__", repr(function))
-        print(f"Exception ignored in atexit callback: <function {name}>", file=sys.stderr)
-        print(format_error(error), end="", file=sys.stderr)
+        function = process.exit_functions.pop()
+        try:
+            function()
+        except SystemExit:
+            pass
+        except Exception as error:
+            name = getattr(function.func, "__qualname__", repr(function.func))
+            print(f"Exception ignored in atexit callback: <function {name}>", file=sys.stderr)
+            print(format_error(error), end="", file=sys.stderr)
