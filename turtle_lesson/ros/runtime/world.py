@@ -219,8 +219,7 @@ class Waiter:
         self._strand = strand = running_strand()
         assert strand is not None
         strand.activity = self._what
-        while process.exit_code is None:
-            strand.simulation.park(strand)
+        strand.simulation.wait_for(strand, lambda: process.exit_code is not None)
 
 
 def run_for(world: World, seconds: float) -> None:

@@ -191,15 +191,11 @@ class KeyReader:
         strand = running_strand()
         assert strand is not None
         deadline = None if seconds is None else simulation.now + max(POLL, round(seconds * 1e9))
-        if deadline is not None:
-            simulation.at(deadline, simulation.wake, strand)
         self._waiting.append(strand)
         try:
-            while self._heard == heard and (deadline is None or simulation.now < deadline):
-                simulation.park(strand)
+            return simulation.wait_for(strand, lambda: self._heard > heard, deadline)
         finally:
             self._waiting.remove(strand)
-        return self._heard > heard
 
 
 def _is_between_cells() -> bool:

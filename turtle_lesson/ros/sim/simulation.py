@@ -133,6 +133,31 @@ class Simulation(Face):
         while self.now < time:
             self.park(strand)
 
+    def wait_for(
+        self,
+        strand: Strand,
+        condition: Callable[[], object],
+        deadline: int | None = None,
+        check: Callable[[], None] | None = None,
+    ) -> bool:
+        """Hold up the running strand until a condition holds, or until `deadline` (ns); whether it holds.
+
+        What has it hold wakes the strand. Without a deadline `check` is called first: it raises an error if it is in vain.
+        """
+        if deadline is not None and self.now < deadline:
+            self.at(deadline, self.wake, strand)
+        try:
+            while not condition():
+                if deadline is None:
+                    if check is not None:
+                        check()
+                elif self.now >= deadline:
+                    return False
+                self.park(strand)
+            return True
+        finally:
+            strand.waits_for = None
+
     def read_clock(self, cost: int = CLOCK_READ) -> int:
         """The virtual time in ns, for a caller that reads a clock: reading costs time itself (ns)."""
         if self._raising:

@@ -10,6 +10,7 @@ import asyncio
 import signal
 import threading
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from ..sim.errors import SimulationError
@@ -63,26 +64,19 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
         strand = running_strand()
         if strand is None:
             raise SimulationError("this loop belongs to a simulated process, and can only run in one")
+        simulation = strand.simulation
         if timeout is not None and timeout <= 0:
-            strand.simulation.sleep_until(strand.simulation.now + CLOCK_READ)
+            simulation.sleep_until(simulation.now + CLOCK_READ)
         else:
-            self._wait(strand, None if timeout is None else strand.simulation.now + nanoseconds(timeout))
+            deadline = None if timeout is None else simulation.now + nanoseconds(timeout)
+            self._waiting = strand
+            try:
+                simulation.wait_for(strand, lambda: self._woken, deadline, partial(wait_in_vain, strand, LOOP))
+            finally:
+                self._waiting = None
         self._woken = False
         self._print_to(strand)
         return []
-
-    def _wait(self, strand: Strand, deadline: int | None) -> None:
-        simulation = strand.simulation
-        if deadline is not None:
-            simulation.at(deadline, simulation.wake, strand)
-        self._waiting = strand
-        try:
-            while not self._woken and (deadline is None or simulation.now < deadline):
-                if deadline is None:
-                    wait_in_vain(strand, LOOP)
-                simulation.park(strand)
-        finally:
-            strand.waits_for = self._waiting = None
 
     def _process_events(self, event_list: list[Any]) -> None:
         """There are none."""

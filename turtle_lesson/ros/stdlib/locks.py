@@ -12,6 +12,7 @@ import sys
 import threading
 from _thread import allocate_lock
 from collections import deque
+from functools import partial
 from typing import Any
 
 from ..sim.errors import WorldClosed
@@ -95,20 +96,11 @@ class VirtualLock:
 
     def _wait(self, strand: Strand, deadline: int | None) -> bool:
         """Hold the strand up until it has the lock, or until the deadline (ns); whether it has it."""
-        simulation = strand.simulation
-        if deadline is not None:
-            simulation.at(deadline, simulation.wake, strand)
+        take, check = partial(self._lock.acquire, False), partial(wait_in_vain, strand, self)
         self._waiters.append(strand)
         try:
-            while not self._lock.acquire(False):
-                if deadline is None:
-                    wait_in_vain(strand, self)
-                elif simulation.now >= deadline:
-                    return False
-                simulation.park(strand)
-            return True
+            return strand.simulation.wait_for(strand, take, deadline, check)
         finally:
-            strand.waits_for = None
             self._waiters.remove(strand)
             if not self._lock.locked():  # woken, but called away by an error
                 self._wake_one()

@@ -117,18 +117,12 @@ class WakeUp:
 
         `only_from_within`: only another thread of this process can call `wake`.
         """
-        simulation, strand = self.strand.simulation, self.strand
-        if deadline is not None and simulation.now < deadline:
-            simulation.at(deadline, simulation.wake, strand)
+        strand = self.strand
+        check = functools.partial(wait_in_vain, strand, "the next tick") if only_from_within else None
         try:
-            while not self.woken and (deadline is None or simulation.now < deadline):
-                if deadline is None and only_from_within:
-                    wait_in_vain(strand, "the next tick")
-                simulation.park(strand)
+            return strand.simulation.wait_for(strand, lambda: self.woken, deadline, check)
         finally:
-            strand.waits_for = None
             self._context.forget_wake(self.wake)
-        return self.woken
 
 
 def somebody_spins(executor: Executor | None, strand: Strand) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -142,20 +143,13 @@ class Client(Entity):
     def _wait(self, future: Future, strand: Any, timeout_sec: float | None) -> None:
         simulation = self._end.simulation
         deadline = None if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
-        if deadline is not None:
-            simulation.at(deadline, simulation.wake, strand)
-
         future.add_done_callback(at_once(lambda _: simulation.wake(strand)))
         executor = self._executor
         calls = executor._calls if deadline is None and executor is not None and executor._is_worker(strand) else []
         calls.append(future)
         try:
-            while not future.done() and (deadline is None or simulation.now < deadline):
-                if deadline is None:
-                    wait_in_vain(strand, strand.activity)
-                strand.park()
+            simulation.wait_for(strand, future.done, deadline, partial(wait_in_vain, strand, strand.activity))
         finally:
-            strand.waits_for = None
             calls.remove(future)
 
     def _taken_elsewhere(self, strand: Any) -> bool:
