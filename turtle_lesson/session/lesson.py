@@ -168,7 +168,7 @@ class Lesson(Inspection):
                 )
             keyboard.press(key)
             self.run(every)
-            keyboard.release(key)
+            keyboard.press(key, down=False)
             self._world.sim.settle()
 
     def spin(self, seconds: float, *nodes: Any) -> None:

@@ -91,7 +91,7 @@ class Teleop(LiveWidget):
         if keyboard is None or not keyboard.reader:
             return
         with suppress(ValueError):  # browsers know many keys that no program asks for
-            (keyboard.press if down else keyboard.release)(key)
+            keyboard.press(key, down)
         self.words = f"Keys go to {keyboard.reader}."
         let_time_go_on(self.backend)
 

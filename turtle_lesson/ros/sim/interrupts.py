@@ -19,7 +19,7 @@ import sys
 import threading
 import time
 from itertools import takewhile
-from types import FrameType, TracebackType
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from .errors import NeverReturns, is_learners
@@ -79,9 +79,7 @@ class Guard:
             self._outer = watchdog.watch(self)
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
         if self._active:
             watchdog.watch(self._outer)
             if self._previous is not None:

@@ -81,19 +81,13 @@ class Keyboard:
         if reader not in self._readers:
             self._readers.append(reader)
 
-    def press(self, key: str) -> None:
-        """Press a key, such as "w" or "up".
+    def press(self, key: str, down: bool = True) -> None:
+        """Press a key, such as "w" or "up", or let go of it.
 
         Raises:
             ValueError: if there is no such key.
         """
-        self._tell(key_named(key), down=True)
-
-    def release(self, key: str) -> None:
-        """Let go of a key."""
-        self._tell(key_named(key), down=False)
-
-    def _tell(self, name: str, down: bool) -> None:
+        name = key_named(key)
         for reader in self._hearing():
             reader.hear(name, down)
 

@@ -10,13 +10,14 @@ import enum
 import sys
 import threading
 from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import partial
 from types import ModuleType
 
 from ..sim.keyboard import SENT, KeyReader
 from ..sim.strand import running_strand
-from .terminals import FLAGS, LFLAG, ProgramInput, copied, terminal_of
+from .terminals import FLAGS, LFLAG, ProgramInput, terminal_of
 
 # -- curses ------------------------------------------------------------------------------------------------------------
 
@@ -116,7 +117,7 @@ def initscr() -> Window:
 def _set_line_mode(on: bool) -> None:
     """Whether the program gets whole lines (`nocbreak`, `endwin`), or each key at once (`cbreak`)."""
     if (terminal := terminal_of(0)) is not None:
-        settings = copied(terminal.settings)
+        settings = deepcopy(terminal.settings)
         settings[LFLAG] = settings[LFLAG] | FLAGS["ICANON"] if on else settings[LFLAG] & ~FLAGS["ICANON"]
         terminal.apply(settings)
 

@@ -174,8 +174,6 @@ def kill(real: Any, pid: int, signal: int, /) -> None:
         real(pid, signal)
 
 
-REPLACEMENTS: tuple[Callable[..., Any], ...] = (signal, getsignal, raise_signal)
-
 NO_SIGNALS = ("alarm", "pause", "pthread_kill", "set_wakeup_fd", "setitimer", "sigtimedwait", "sigwait", "sigwaitinfo")
 """What `signal` has, and a simulated process has not."""
 

@@ -18,6 +18,7 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
 from types import CodeType, ModuleType
@@ -68,8 +69,10 @@ def run_program(path: Path, folders: Iterable[Path] = (), text: str | None = Non
     modules.run(str(path), text)
 
 
-_compiled: dict[str, tuple[bytes, bytes]] = {}
-"""By path: the text of a file, and its code, which is compiled once, however many processes run it."""
+@lru_cache(maxsize=256)
+def _compiled(path: str, source: bytes | str) -> bytes:
+    """The code of a text, which is compiled once, however many processes run it."""
+    return marshal.dumps(compile(without_busy_loops(source, path), path, "exec", dont_inherit=True))
 
 
 def code_of(path: str, text: str | None = None) -> CodeType:
@@ -77,15 +80,7 @@ def code_of(path: str, text: str | None = None) -> CodeType:
 
     Each process gets a copy of it: Python notes in it what it has learned about the globals that it runs with.
     """
-    if text is not None:
-        return compile(without_busy_loops(text, path), path, "exec", dont_inherit=True)
-    with open(path, "rb") as file:
-        source = file.read()
-    known = _compiled.get(path)
-    if known is None or known[0] != source:
-        code = compile(without_busy_loops(source, path), path, "exec", dont_inherit=True)
-        known = _compiled[path] = (source, marshal.dumps(code))
-    copy: CodeType = marshal.loads(known[1])
+    copy: CodeType = marshal.loads(_compiled(path, Path(path).read_bytes() if text is None else text))
     return copy
 
 

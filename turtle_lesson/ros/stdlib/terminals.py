@@ -16,6 +16,7 @@ import select as real_select
 import signal
 import sys
 from collections.abc import Callable, Iterable
+from copy import deepcopy
 from importlib.util import find_spec
 from io import TextIOBase
 from types import ModuleType
@@ -143,7 +144,7 @@ class ProgramInput(KeyReader, TextIOBase):
 
     def apply(self, settings: Settings) -> None:
         """Have these settings count from now on."""
-        self.settings = copied(settings)
+        self.settings = deepcopy(settings)
         flags, characters = settings[LFLAG], settings[CC]
         self.raw = not flags & FLAGS["ICANON"]
         self.signals = bool(flags & FLAGS["ISIG"])
@@ -152,11 +153,6 @@ class ProgramInput(KeyReader, TextIOBase):
         self.patience = tenths / 10 if self.raw and not least else None
         if self.raw:
             self.process.simulation.keyboard.reads_keys(self)
-
-
-def copied(settings: Settings) -> Settings:
-    """Settings that may be changed without changing these."""
-    return [*settings[:CC], list(settings[CC])]
 
 
 # -- the modules -------------------------------------------------------------------------------------------------------
@@ -186,7 +182,7 @@ def _terminal(file: object) -> ProgramInput:
 
 def tcgetattr(fd: object, /) -> Settings:
     """A terminal's settings."""
-    return copied(_terminal(fd).settings)
+    return deepcopy(_terminal(fd).settings)
 
 
 def tcsetattr(fd: object, when: int, attributes: Settings, /) -> None:
@@ -214,27 +210,6 @@ def select(
     return real_select.select(readers, wlist, xlist, timeout)
 
 
-def kbhit() -> bool:
-    """Whether a key was pressed."""
-    return _terminal_of_windows().is_ready(0.0)
-
-
-def getwch() -> str:
-    """The next key's character."""
-    return _terminal_of_windows().read(1)
-
-
-def getch() -> bytes:
-    """The next key's character, as bytes."""
-    return getwch().encode()
-
-
-def _terminal_of_windows() -> ProgramInput:
-    terminal = _terminal(0)
-    terminal.raw, terminal.signals, terminal.returns = True, False, True
-    return terminal
-
-
 def make_modules() -> list[ModuleType]:
     """`termios`, `tty`, `select`, and `fcntl`, or on Windows `msvcrt`: by its absence programs know that they are elsewhere."""
     termios = _module("termios", {**FLAGS, "error": error}, tcgetattr, tcsetattr, tcflush)
@@ -243,8 +218,16 @@ def make_modules() -> list[ModuleType]:
 
 
 def make_msvcrt() -> ModuleType:
-    """`msvcrt`, by which programs read keys on Windows."""
-    return _module("msvcrt", {"getche": getch, "getwche": getwch}, kbhit, getch, getwch)
+    """`msvcrt`, by which programs on Windows read keys, as characters or as bytes, and see whether one was pressed."""
+
+    def terminal() -> ProgramInput:
+        found = _terminal(0)
+        found.raw, found.signals, found.returns = True, False, True
+        return found
+
+    characters = dict.fromkeys(("getwch", "getwche"), lambda: terminal().read(1))
+    in_bytes = dict.fromkeys(("getch", "getche"), lambda: terminal().read(1).encode())
+    return _module("msvcrt", {**characters, **in_bytes, "kbhit": lambda: terminal().is_ready(0.0)})
 
 
 def make_tty(termios: ModuleType) -> ModuleType:
