@@ -239,12 +239,9 @@ class Process:
                 return error.code or 0
             print(error.code, file=sys.stderr)
             return 1
-        except KeyboardInterrupt as error:
-            self._show(error)
-            return INTERRUPTED
         except BaseException as error:
             self._show(error)
-            return 1
+            return INTERRUPTED if isinstance(error, KeyboardInterrupt) else 1
 
     def _show(self, error: BaseException) -> None:
         if self.alive:

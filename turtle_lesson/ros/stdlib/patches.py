@@ -154,7 +154,10 @@ TABLE: tuple[Patch, ...] = (
         for name in random.__all__
         if name != "random" and type(getattr(getattr(random, name), "__self__", None)) is random.Random
     ),
-    *(_in_process("numpy.random", process_state.numpy_drawing(name), DRAW, name) for name in process_state.NUMPY),
+    *(
+        _in_process("numpy.random", process_state.drawing(name, process_state.numpy_source), DRAW, name)
+        for name in process_state.NUMPY
+    ),
     _function("numpy.random", process_state.default_rng, DRAW),
     Patch("threading", "Lock", lambda real: facade(real, locks.VirtualLock, locks.RealLock), WAITS),
     _function("threading", locks.rlock, WAITS, "RLock"),

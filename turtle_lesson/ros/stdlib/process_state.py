@@ -8,6 +8,7 @@ import sys
 import zlib
 from collections.abc import Callable, Mapping
 from functools import partial
+from operator import attrgetter
 from typing import Any
 
 from ..sim.errors import is_library
@@ -84,31 +85,26 @@ NUMPY = (
 """The functions of `numpy.random` that draw from one state of the whole program."""
 
 
-def drawing(name: str) -> Callable[..., Any]:
-    """A function of the standard `random` module that draws from the source of the process."""
+def drawing(name: str, source: Callable[[Process], Any] = attrgetter("random")) -> Callable[..., Any]:
+    """A function of the standard `random` module, or of a `source` of its own, that draws from the source of the process."""
 
     def draw(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
-        return getattr(strand.process.random, name)(*arguments, **keywords)
+        return getattr(source(strand.process), name)(*arguments, **keywords)
 
     return draw
+
+
+def numpy_source(process: Process) -> Any:
+    """The state from which numpy's old global functions draw."""
+    from numpy.random import RandomState
+
+    return process.state(RandomState, zlib.crc32(process.seed.encode()))
 
 
 def random(real: Callable[[], float]) -> float:
     """`random.random`, which is by far the most used, and so is spelled out."""
     strand = running_strand()
     return strand.process.random.random() if strand is not None else real()
-
-
-def numpy_drawing(name: str) -> Callable[..., Any]:
-    """One of numpy's old global functions that draws from a state of the process."""
-
-    def draw(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
-        from numpy.random import RandomState
-
-        source = strand.process.state(RandomState, zlib.crc32(strand.process.seed.encode()))
-        return getattr(source, name)(*arguments, **keywords)
-
-    return draw
 
 
 def default_rng(real: Callable[..., Any], seed: Any = None) -> Any:
