@@ -74,6 +74,8 @@ def test_getsignal_knows_what_was_set(run: Run) -> None:
         assert signal.signal(signal.SIGINT, signal.SIG_IGN) is handler
         assert signal.signal(signal.SIGINT, signal.default_int_handler) is signal.SIG_IGN
         assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+        assert signal.signal(signal.SIGINT, signal.SIG_DFL) is signal.default_int_handler
+        assert signal.signal(signal.SIGINT, signal.default_int_handler) is signal.SIG_DFL
         with pytest.raises(TypeError, match="signal handler must be"):
             signal.signal(signal.SIGINT, "no handler")
         with pytest.raises(ValueError):

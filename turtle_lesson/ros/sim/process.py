@@ -66,7 +66,7 @@ class Process:
         before_exit: called when the main program has ended, the last one first: waits for what is still at work.
         exit_functions: called after that, the last one first: what the program gave to `atexit.register`.
         at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
-        signal_handlers: what the program has set with `signal.signal`, by the number of the signal.
+        signal_handlers: as the program has set them with `signal.signal`, by the number of the signal; else SIG_DFL.
         signal_hook: what a library does about signals before that.
         noticed: whether a notice has said that it holds up robot time.
     """
@@ -100,7 +100,7 @@ class Process:
         self.before_exit: list[Callable[[], None]] = []
         self.exit_functions: list[partial[object]] = []
         self.at_exit: list[Callable[[], None]] = []
-        self.signal_handlers: dict[int, Any] = {}
+        self.signal_handlers: dict[int, Any] = {signal.SIGINT: signal.default_int_handler}
         self.signal_hook: SignalHook | None = None
         self.noticed = False
         self.error: BaseException | None = None
@@ -159,23 +159,22 @@ class Process:
 
     def handles(self, number: int) -> bool:
         """Whether the program has a handler for a signal, its own or a library's, and can run it."""
-        hook = self.signal_hook
-        return bool(self.main_strand) and (number in self.signal_handlers or (hook is not None and hook.takes(number)))
+        hook, is_set = self.signal_hook, self.signal_handlers.get(number, signal.SIG_DFL) is not signal.SIG_DFL
+        return bool(self.main_strand) and (is_set or (hook is not None and hook.takes(number)))
 
     def send_signal(self, number: int) -> None:
         """Have the process get a signal: its own handler is called in the main strand, or does what Python does."""
-        main, hook, handler = self.main_strand, self.signal_hook, self.signal_handlers.get(number)
-        if not self.alive or (hook is not None and hook.hear(number)):
+        main, hook, handler = self.main_strand, self.signal_hook, self.signal_handlers.get(number, signal.SIG_DFL)
+        if not self.alive or (hook is not None and hook.hear(number)) or handler is signal.SIG_IGN:
             return
-        if main and handler is not None:
-            if main is running_strand():
-                handler(number, sys._getframe(1))
-            else:
-                self.simulation.call_in(main, lambda: handler(number, sys._getframe(2)))
-        elif number == signal.SIGINT:
+        if handler is signal.default_int_handler:
             self._end_main(KeyboardInterrupt())
-        else:
+        elif not main or not callable(handler):
             self.kill()
+        elif main is running_strand():
+            handler(number, sys._getframe(1))
+        else:
+            self.simulation.call_in(main, lambda: handler(number, sys._getframe(2)))
 
     def kill(self) -> None:
         """End the process without asking; its `finally` blocks still run, but none of them may wait."""

@@ -60,9 +60,8 @@ class SteppedCall:
         simulation.stepped = self
 
     def __repr__(self) -> str:
-        return (
-            f"<SteppedCall of {self.function!r}, {'done' if self.done else 'begun' if self._greenlet else 'not begun'}>"
-        )
+        state = "done" if self.done else "begun" if self._greenlet else "not begun"
+        return f"<SteppedCall of {self.function!r}, {state}>"
 
     @property
     def runs_here(self) -> bool:

@@ -29,8 +29,7 @@ would take the notebook's event loop for its own."""
 
 # -- strand -------------------------------------------------------------------------------------------------------
 # A strand: one line of execution in a simulated process, which can stop in the middle of a call and go on later.
-# This module is the small switch interface between the simulation and whatever makes a call stoppable; today that is
-# greenlet (https://greenlet.readthedocs.io). Nothing else in the project imports greenlet.
+# It is a greenlet (https://greenlet.readthedocs.io).
 # A strand is *parked* (waits until somebody wakes it), *ready* (queued to go on at this instant), *running* or
 # *dead*. The hub is the greenlet that runs the simulation's loop: the notebook cell itself.
 # A strand that spins an executor does the same each time that it is woken: it takes a *turn*. To switch to its stack for

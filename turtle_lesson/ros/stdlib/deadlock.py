@@ -84,8 +84,9 @@ def _nobody_can_act(process: Process, this: Strand | None) -> bool:
 
     A signal that the program handles can end a wait, too, and so can the notebook's next cell.
     """
-    names = [getattr(getattr(each, "func", each), "__qualname__", "") for each in process.signal_handlers.values()]
-    if any(name != "Runner._on_sigint" for name in names):  # set by the program, and not by `asyncio.run`
+    handlers = [getattr(each, "func", each) for each in process.signal_handlers.values() if callable(each)]
+    names = {getattr(each, "__qualname__", "") for each in handlers}
+    if names - {"default_int_handler", "Runner._on_sigint"}:  # set by the program, and not by Python or `asyncio.run`
         return False
     if process.is_notebook and process.simulation.driven is None:
         return False

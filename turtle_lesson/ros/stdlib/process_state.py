@@ -128,31 +128,15 @@ def signal(strand: Strand, signalnum: int, handler: Any) -> Any:
         raise ValueError("signal only works in main thread of the main interpreter")
     if not callable(handler) and handler not in (module.SIG_IGN, module.SIG_DFL):
         raise TypeError("signal handler must be signal.SIG_IGN, signal.SIG_DFL, or a callable object")
-    before = _handler_of(process, number)
     be_careful(process.simulation)
-    process.signal_handlers.pop(number, None)
-    if handler is module.SIG_IGN:
-        process.signal_handlers[number] = _ignore
-    elif handler is module.SIG_DFL and number == module.SIGINT:
-        process.signal_handlers[number] = lambda *_: process.kill()
-    elif handler not in (module.SIG_DFL, module.default_int_handler):
-        process.signal_handlers[number] = handler
+    before = getsignal(strand, number)
+    process.signal_handlers[number] = handler
     return before
-
-
-def _ignore(number: int, frame: object) -> None:
-    """What stands for SIG_IGN."""
-
-
-def _handler_of(process: Process, number: int) -> Any:
-    default = module.default_int_handler if number == module.SIGINT else module.SIG_DFL
-    found = process.signal_handlers.get(number, default)
-    return module.SIG_IGN if found is _ignore else found
 
 
 def getsignal(strand: Strand, signalnum: int) -> Any:
     """The handler of a signal."""
-    return _handler_of(strand.process, module.Signals(signalnum))
+    return strand.process.signal_handlers.get(module.Signals(signalnum), module.SIG_DFL)
 
 
 def raise_signal(strand: Strand, signalnum: int, /) -> None:
