@@ -202,10 +202,9 @@ def active_count(real: Any) -> int:
     return len(threading.enumerate())
 
 
-def _threads(process: Process, *, made: bool = False) -> list[threading.Thread]:
-    """The simulated threads of a process that live; with `made`, only those whose object was asked for."""
-    strands = [strand for strand in process.strands if not strand.dead and not (made and strand.thread is None)]
-    threads = [thread_of(strand) for strand in strands]
+def _threads(process: Process) -> list[threading.Thread]:
+    """The simulated threads of a process that live."""
+    threads = [thread_of(strand) for strand in process.strands if not strand.dead]
     return [thread for thread in threads if "_virtual" in vars(thread) and thread.is_alive()]
 
 
@@ -291,7 +290,7 @@ def wind_down(process: Process) -> None:
             process.before_exit.pop()()
         if process.main_strand is not None and any(strand.thread is not None for strand in process.strands):
             end(thread_of(process.main_strand))
-            while waited_for := [thread for thread in _threads(process, made=True) if not thread.daemon]:
+            while waited_for := [thread for thread in _threads(process) if not thread.daemon]:
                 waited_for[0].join()
     except KeyboardInterrupt as error:  # Ctrl-C ends the waiting
         print(f"Exception ignored in: <module 'threading'>\n{format_error(error)}", end="", file=sys.stderr)
