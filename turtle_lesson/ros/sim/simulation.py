@@ -148,11 +148,10 @@ class Simulation(Face):
             self.at(deadline, self.wake, strand)
         try:
             while not condition():
-                if deadline is None:
-                    if check is not None:
-                        check()
-                elif self.now >= deadline:
+                if deadline is not None and self.now >= deadline:
                     return False
+                if deadline is None and check is not None:
+                    check()
                 self.park(strand)
             return True
         finally:

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from functools import partial
 from types import ModuleType
 
+from .. import hooks
 from ..sim.keyboard import SENT, KeyReader
-from ..sim.strand import running_strand
 from .terminals import FLAGS, LFLAG, ProgramInput, terminal_of
 
 # -- curses ------------------------------------------------------------------------------------------------------------
@@ -188,16 +188,12 @@ class Listener(threading.Thread):
     def __init__(self, on_press: Callback | None = None, on_release: Callback | None = None, **options: object) -> None:
         super().__init__(daemon=True)
         self._callbacks = {True: on_press, False: on_release}
-        self._reader: KeyReader | None = None
-        self._stopped = False
+        self._reader = KeyReader(hooks.current_process())
 
     def run(self) -> None:
         """Listen until it is stopped."""
-        strand = running_strand()
-        if strand is None:
-            raise RuntimeError("a Listener hears keys in a program (ros2 run, python3 FILE) only, not in a cell")
-        self._reader = reader = KeyReader(strand.process)
-        while not self._stopped:
+        reader = self._reader
+        while not reader.stopped:
             if not reader.events:
                 reader.wait()
                 continue
@@ -209,15 +205,13 @@ class Listener(threading.Thread):
 
     def stop(self) -> None:
         """End it. It cannot be started once more."""
-        self._stopped = True
-        if self._reader is not None:
-            self._reader.stopped = True
-            self._reader.notify()
+        self._reader.stopped = True
+        self._reader.notify()
 
     @property
     def running(self) -> bool:
         """Whether it listens."""
-        return self.is_alive() and not self._stopped
+        return self.is_alive() and not self._reader.stopped
 
     def wait(self) -> None:
         """Wait until it listens, which it does as soon as it is started."""

@@ -50,20 +50,19 @@ class VirtualLock:
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
         """Take the lock, waiting for it if `blocking`, at most `timeout` seconds; whether it was taken."""
-        asking = running_strand()
-        if asking is not None:
-            count_look(asking.simulation)  # queues are asked with their lock
+        strand = running_strand()
+        if strand is not None:
+            count_look(strand.simulation)  # queues are asked with their lock
         if not self._lock.acquire(False):
             allocate_lock().acquire(blocking, timeout)  # which refuses what a real one refuses
             if not blocking or timeout == 0:
                 return False
-            strand = running_strand()
             if strand is None:
                 return self._acquire_outside(timeout)
             if not self._wait(strand, None if timeout < 0 else strand.simulation.now + nanoseconds(timeout)):
                 return False
-        if asking is not None:
-            self.owner = asking
+        if strand is not None:
+            self.owner = strand
         return True
 
     def release(self) -> None:

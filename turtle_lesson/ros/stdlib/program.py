@@ -18,7 +18,7 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
 from types import CodeType, ModuleType
@@ -115,8 +115,8 @@ class ProgramModules:
         own = {"__import__": self._import, "input": self.stdin.ask, "exit": _exit, "quit": _exit, NAME: another_look}
         self.builtins = {**vars(builtins), **own}
         self._modules: dict[str, ModuleType] = {}
-        self._own = {"__main__": True}
-        self._looked_in: list[str] = []
+        self._tops = {"__main__"}  # the first names of its own that it has imported
+        self._finds = cache(lambda name, *folders: self._find(name, folders) is not None)
         self._hidden: dict[str, ModuleType] = {}
 
     def run(self, path: str, text: str | None = None) -> None:
@@ -145,31 +145,24 @@ class ProgramModules:
         if simulation.modules_shown is not None:
             simulation.modules_shown.hide()
         simulation.modules_shown = self
-        self._hidden = self._taken_out()
+        self._hidden = _take_out(self._tops)
         sys.modules.update(self._modules)
 
     def hide(self) -> None:
         """Have it hold again what it held before."""
         self._process.simulation.modules_shown = None
-        self._modules.update(self._taken_out())
+        self._modules.update(_take_out(self._tops))
         sys.modules.update(self._hidden)
         self._hidden = {}
 
-    def _taken_out(self) -> dict[str, ModuleType]:
-        return _take_out({name for name, own in self._own.items() if own})
-
     def owns(self, name: str) -> bool:
         """Whether a module is of this program, because it is found in its folders."""
-        folders = self._own_folders()
-        if folders != self._looked_in:  # what was not found in the others may be in a new one
-            self._looked_in = folders
-            self._own = {top: True for top, own in self._own.items() if own}
         top = name.partition(".")[0]
-        if top not in self._own:
-            self._own[top] = self._find(top, folders) is not None
-            if self._own[top] and self.shown:
+        if top not in self._tops and self._finds(top, *self._own_folders()):
+            self._tops.add(top)
+            if self.shown:
                 self._hidden.update(_take_out({top}))
-        return self._own[top]
+        return top in self._tops
 
     def _own_folders(self) -> list[str]:
         """What the program's import path has beside the libraries."""
