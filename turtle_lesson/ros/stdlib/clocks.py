@@ -78,7 +78,10 @@ class _Date(type):
     _behind: type
 
     def __instancecheck__(cls, instance: Any) -> bool:
-        return isinstance(instance, cls._behind) if "_behind" in vars(cls) else super().__instancecheck__(instance)
+        return cls.__subclasscheck__(type(instance))
+
+    def __subclasscheck__(cls, subclass: type) -> bool:
+        return issubclass(subclass, cls._behind) if "_behind" in vars(cls) else super().__subclasscheck__(subclass)
 
 
 class _Robots:
