@@ -28,7 +28,6 @@ from .views import Inspection
 
 if TYPE_CHECKING:
     from ..lab.recorder import Recorder
-    from ..lab.widgets.backend import Backend
     from ..ros.ament.source import Exported
     from ..ros.bags.recorder import Recording
     from ..ros.launching import LaunchHandle
@@ -316,7 +315,7 @@ class Lesson(Inspection):
         return self._recorder
 
     @cached_property
-    def _backend(self) -> Backend:
+    def _backend(self) -> SimBackend:
         return SimBackend(self._world, self._recording, self._player, self._board)
 
 

@@ -15,9 +15,7 @@ if TYPE_CHECKING:
     from rclpy.executors import SingleThreadedExecutor
 
     from ..lab.recorder import ObstacleBoard, Recorder
-    from ..lab.widgets.backend import Clock
     from ..ros.runtime.world import World
-    from ..ros.sim.keyboard import Keyboard
 
 
 STEP = 1 / 30
@@ -216,7 +214,7 @@ class Stopwatch:
 
 
 class SimBackend:
-    """A `Backend` (see lab/widgets/backend.py) in a world of this notebook, with its player as the clock."""
+    """What the widgets see (`Link` in lab/widgets/backend.py) of a world of this notebook, with its player as the clock."""
 
     def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
         from ..lab.widgets.backend import Loop
@@ -225,8 +223,8 @@ class SimBackend:
         self.recorder = recorder
         self.board = board
         self.node = recorder.node
-        self.clock: Clock | None = player
-        self.keyboard: Keyboard | None = world.sim.keyboard
+        self.clock = player
+        self.keyboard = world.sim.keyboard
         self.loop = Loop()
         self.at_close = world.at_close
 

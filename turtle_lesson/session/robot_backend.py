@@ -18,13 +18,11 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 
 from ..lab.recorder import DEPTH, ON_A_ROBOT, ObstacleBoard, Recorder
-from ..lab.widgets.backend import FRAME, Clock, Loop
+from ..lab.widgets.backend import FRAME, Loop
 
 if TYPE_CHECKING:
     from rclpy.client import Client
     from rclpy.timer import Timer
-
-    from ..ros.sim.keyboard import Keyboard
 
 
 BREATH = 0.02
@@ -38,14 +36,14 @@ Action = Callable[..., object]
 
 
 class RobotBackend:
-    """A `Backend` (see lab/widgets/backend.py) on a real ROS 2. To be made in the notebook's event loop.
+    """What the widgets see (`Link` in lab/widgets/backend.py) of a real ROS 2. To be made in the notebook's event loop.
 
     The thread does nothing but wait for ROS and hop. All else, from creating a subscription to destroying the node, happens
     in the loop.
     """
 
-    clock: Clock | None = None
-    keyboard: Keyboard | None = None
+    clock = None
+    keyboard = None
 
     def __init__(self) -> None:
         self.loop = Loop()

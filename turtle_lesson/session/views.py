@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from ..lab.prompts import Prompt
     from ..lab.recorder import ObstacleBoard, Recorder
     from ..lab.troubles.cases import Case
-    from ..lab.widgets.backend import Backend
     from ..lab.widgets.dashboard import Dashboard
     from ..lab.widgets.form import Form
     from ..lab.widgets.goal_pad import GoalPad
@@ -40,6 +39,8 @@ if TYPE_CHECKING:
     from ..lab.widgets.teleop import Teleop
     from ..ros.rmw.trace import Trace
     from ..ros.runtime.world import World
+    from .live import SimBackend
+    from .robot_backend import RobotBackend
 
 
 Widget = TypeVar("Widget")
@@ -49,7 +50,7 @@ class Views:
     """The pictures and widgets of a running system, which a subclass names: `_backend` and `_recording`."""
 
     @cached_property
-    def _backend(self) -> Backend:
+    def _backend(self) -> SimBackend | RobotBackend:
         """One for all widgets, since they share the frames of its loop."""
         raise NotImplementedError
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from time import thread_time
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
     from ...ros.sim.keyboard import Keyboard
+    from ...session.live import Player
     from ..recorder import ObstacleBoard, Recorder
     from .live_widget import LiveWidget
 
@@ -44,40 +45,11 @@ NEWS = 0.05
 """How much a frame changes the average: some have much to do that the next ones have not."""
 
 
-class Clock(Protocol):
-    """A clock that a widget can turn."""
+class Link:
+    """What a widget sees of its system. Once it is cut, nothing of the system is reached through it, or kept alive.
 
-    @property
-    def playing(self) -> bool:
-        """Whether robot time goes on by itself."""
-
-    @property
-    def rate(self) -> float:
-        """How many times as fast as life it goes on, or will when it is played; infinite for as fast as possible."""
-
-    @rate.setter
-    def rate(self, rate: float) -> None: ...
-
-    @property
-    def wall_seconds(self) -> float:
-        """Seconds of real time for which it has played since `play`."""
-
-    @property
-    def speed(self) -> float:
-        """How many times as fast as life it really goes; 0 while it stands still."""
-
-    def play(self, rate: float) -> None:
-        """Let robot time go on by itself."""
-
-    def pause(self) -> None:
-        """Let it stand still."""
-
-    def step(self, seconds: float) -> None:
-        """Let some seconds pass at once."""
-
-
-class Backend(Protocol):
-    """What every widget needs of the system that it shows."""
+    A widget outlives its system: on the page, in Jupyter's `Out`, and in the list that ipywidgets keeps.
+    """
 
     node: Node
     """An rclpy Node with a hidden name, spun by its owner; its callbacks happen in the notebook's loop."""
@@ -85,33 +57,17 @@ class Backend(Protocol):
     """What was heard so far."""
     board: ObstacleBoard
     """The obstacles of the world, and their publisher."""
-    loop: Loop
-    """The notebook's event loop."""
-    clock: Clock | None
+    clock: Player | None
     """None where the clock cannot be turned, as on a real robot."""
     keyboard: Keyboard | None
     """What the programs of a simulated world read keys from; None on a real robot, whose programs have terminals."""
-    at_close: list[Callable[[], object]]
-    """Called when the system ends, while its node is still there: what outlives the system lets go of it."""
+    now: float
+    """Robot time: seconds since the recorder's origin."""
 
-    @property
-    def now(self) -> float:
-        """Robot time: seconds since the recorder's origin."""
-
-    @property
-    def ended(self) -> bool:
-        """Whether this system is gone, so that its widgets have nothing to show any more."""
-
-
-class Link:
-    """A widget's own link to its backend. Once it is cut, nothing of the system is reached through it, or kept alive.
-
-    A widget outlives its system: on the page, in Jupyter's `Out`, and in the list that ipywidgets keeps.
-    """
-
-    def __init__(self, backend: Backend | Any) -> None:
+    def __init__(self, backend: Any) -> None:
+        """`backend` has all these, too: a `SimBackend` or a `RobotBackend` (see session/)."""
         self.loop: Loop = backend.loop
-        self._backend: Backend | Any = backend
+        self._backend: Any = backend
 
     @property
     def ended(self) -> bool:
@@ -209,7 +165,7 @@ DISCOVERY = 2.0
 class LazyPublisher:
     """Publishes messages of one class on one topic. Until the first message the graph shows nothing of it."""
 
-    def __init__(self, backend: Backend, topic: str, message_class: Any, type_name: str) -> None:
+    def __init__(self, backend: Link, topic: str, message_class: Any, type_name: str) -> None:
         self._backend = backend
         self.topic, self.message_class, self.type_name = topic, message_class, type_name
         self._publisher: Any = None
@@ -263,14 +219,14 @@ class LazyPublisher:
         return self._publisher.get_subscription_count() > own  # the recorder's, which is found at once
 
 
-def let_time_go_on(backend: Backend) -> None:
+def let_time_go_on(backend: Link) -> None:
     """Start robot time if it stands still and can be turned, so that what was just asked for is seen to happen."""
     if backend.clock is not None and not backend.clock.playing:
         with suppress(RuntimeError):  # a plain script has no event loop; there time is run by hand
             backend.clock.play(backend.clock.rate)
 
 
-def in_a_moment(backend: Backend, has_come: Callable[[], bool]) -> None:
+def in_a_moment(backend: Link, has_come: Callable[[], bool]) -> None:
     """Let at most 0.05 s of robot time pass if it stands still, so that an answer can come."""
     for _ in range(10):
         if backend.clock is None or backend.clock.playing or has_come():
@@ -285,7 +241,7 @@ Answered = Callable[[str, str], object]
 class LazyClient:
     """Calls one service, one request at a time. Until the first request the graph shows nothing of it."""
 
-    def __init__(self, backend: Backend, service_class: Any, name: str) -> None:
+    def __init__(self, backend: Link, service_class: Any, name: str) -> None:
         self._backend, self._class, self._name = backend, service_class, name
         self._client: Any = None
         self._future: Future | None = None

@@ -29,7 +29,7 @@ from .live_widget import pack
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from .backend import Backend
+    from .backend import Link
 
 LATE = 1.5
 """Seconds of robot time without a status, or without a scan, after which the panel says so."""
@@ -93,7 +93,7 @@ class Dashboard(GoalPad):
     log_least = traitlets.Unicode("INFO").tag(sync=True)
     """Lines below this level are not shown."""
 
-    def __init__(self, backend: Backend) -> None:
+    def __init__(self, backend: Link) -> None:
         self._status_sent = -1  # stamp, ns
         self._heard: dict[str, tuple[Channel, Table, str]] = {}  # with the reason why a topic cannot be heard
         self._rosout: Subscription | None = None

@@ -10,7 +10,7 @@ from rclpy.node import Node
 
 from ...ros.idl.names import is_hidden
 from ..words import count, listed, suggestion, within
-from .backend import Backend, LazyClient, LazyPublisher, let_time_go_on
+from .backend import LazyClient, LazyPublisher, Link, let_time_go_on
 from .live_widget import LiveWidget
 from .message_fields import Group, Part, Rows, Single, find_class, find_part
 
@@ -55,7 +55,7 @@ class Form(LiveWidget):
     """The newest answer in YAML."""
     unheard = traitlets.Unicode().tag(sync=True)
 
-    def __init__(self, backend: Backend, name: str) -> None:
+    def __init__(self, backend: Link, name: str) -> None:
         full, kind, type_name = _look_up(backend.node, name)
         message_class = find_class(type_name)
         self._whole = Group(message_class if kind == "topic" else message_class.Request)

@@ -19,7 +19,7 @@ from ...ros.stdlib.clocks import real_monotonic
 from ..graph import owner, servers
 from ..recording import NANOSECONDS
 from ..words import within
-from .backend import DISCOVERY, Backend
+from .backend import DISCOVERY, Link
 
 SERVICE = "/navigate_to"
 AT_ONCE = 0.5
@@ -71,7 +71,7 @@ class Goal:
 _desks: WeakSet[GoalClient] = WeakSet()
 
 
-def goals_from(backend: Backend) -> list[Goal]:
+def goals_from(backend: Link) -> list[Goal]:
     """All goals that were sent from this page, whichever of its widgets sent them, the oldest first."""
     here = [desk for desk in _desks if desk.recorder is backend.recorder]
     return sorted((goal for desk in here for goal in desk.goals), key=lambda goal: goal.sent)
@@ -83,7 +83,7 @@ class GoalClient:
     It also watches the node that answers: whether it is still there, and its warnings, which say why a goal failed.
     """
 
-    def __init__(self, backend: Backend, changed: Callable[[Goal], None]) -> None:
+    def __init__(self, backend: Link, changed: Callable[[Goal], None]) -> None:
         self._backend, self._changed = backend, changed
         self._client: Any = None
         self._found_by = 0.0

@@ -15,7 +15,7 @@ from ...turtlesim.obstacles import WORLDS, Box, Circle, Obstacle
 from ..drawing import Picture
 from ..path import Trail, plot_path
 from ..words import angle, count, listed, number, point, within
-from .backend import Backend, let_time_go_on
+from .backend import Link, let_time_go_on
 from .goal_client import Goal, GoalClient
 from .live_widget import LiveWidget, pack
 
@@ -83,7 +83,7 @@ class GoalPad(LiveWidget):
     earlier = traitlets.Int(0).tag(sync=True)
     """How many were sent before those."""
 
-    def __init__(self, backend: Backend, **traits: Any) -> None:
+    def __init__(self, backend: Link, **traits: Any) -> None:
         self._trail = Trail(SPACING, TAIL, KEPT)
         self.desk = GoalClient(backend, self._goal_changed)
         self._goal_news = False

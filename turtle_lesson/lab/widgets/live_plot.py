@@ -18,7 +18,7 @@ from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status_and_scan import label_beside, spread
 from ..words import count, enumerated, number, suggestion, within
-from .backend import Backend
+from .backend import Link
 from .live_widget import LiveWidget, pack
 from .message_fields import Kind, find_class, kinds_of
 
@@ -173,7 +173,7 @@ class LivePlot(LiveWidget):
 
     RATE = 10.0
 
-    def __init__(self, backend: Backend, fields: Iterable[str], seconds: float) -> None:
+    def __init__(self, backend: Link, fields: Iterable[str], seconds: float) -> None:
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
         self._channels: dict[str, Channel] = {}
         self._timer: Timer | None = None

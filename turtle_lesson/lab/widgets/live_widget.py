@@ -6,7 +6,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, ClassVar, cast
+from typing import Any, ClassVar
 
 import anywidget
 import numpy as np
@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..drawing import Picture
-from .backend import Backend, Link, Message
+from .backend import Link, Message
 
 KEPT = 20
 """Of the widgets whose system has ended and that no page shows, so many can still be shown: a page that is run as a whole
@@ -88,8 +88,7 @@ class LiveWidget(anywidget.AnyWidget):
     _last_words: str | None = None
     """What it said last, once its system has ended."""
 
-    def __init__(self, backend: Backend, **traits: Any) -> None:
-        """`backend` is a `Link` to it."""
+    def __init__(self, backend: Link, **traits: Any) -> None:
         self.backend = backend
         self._esm, self._css = script(*self.SCRIPTS), styles(*self.STYLES)
         self._paces: dict[str, float] = {}
@@ -290,7 +289,7 @@ class LiveWidget(anywidget.AnyWidget):
         last = "This widget has ended."
         with suppress(Exception):
             last = self.text()
-        cast(Link, self.backend).cut()
+        self.backend.cut()
         self._last_words = last
 
     def __repr__(self) -> str:

@@ -16,7 +16,7 @@ from rclpy.task import Future
 from ...ros.idl.names import is_hidden
 from ..graph import node_names
 from ..words import count, enumerated, suggestion
-from .backend import DISCOVERY, Backend, in_a_moment
+from .backend import DISCOVERY, Link, in_a_moment
 from .live_widget import LiveWidget
 from .message_fields import read_number
 
@@ -69,7 +69,7 @@ class ParametersPanel(LiveWidget):
     standing = traitlets.Bool(False).tag(sync=True)
     """Whether the answer waits for robot time, which stands still."""
 
-    def __init__(self, backend: Backend, node: str) -> None:
+    def __init__(self, backend: Link, node: str) -> None:
         name = _look_up(backend.node, node)
         self._found: dict[str, Found] = {}
         self._events: Any = None

@@ -39,7 +39,7 @@ class PredictionWidget(LiveWidget):
 
     def __init__(self, question: Question) -> None:
         self._asked = question
-        backend: Any = Link(SimpleNamespace(loop=Loop(), ended=False))
+        backend = Link(SimpleNamespace(loop=Loop(), ended=False))
         kind = question.kind
         super().__init__(
             backend,

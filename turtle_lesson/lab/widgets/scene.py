@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..recording import Recording
-    from .backend import Backend
+    from .backend import Link
 
 AROUND, UP = math.radians(-62), math.radians(40)
 """The viewpoint: the direction of the eye, and its height above the horizon, rad."""
@@ -65,7 +65,7 @@ class Scene(LiveWidget):
     description = traitlets.Unicode().tag(sync=True)
     """The scene in words, for a screen reader."""
 
-    def __init__(self, backend: Backend) -> None:
+    def __init__(self, backend: Link) -> None:
         self._trail = Trail()
         super().__init__(backend, bundle=viewer_bundle(), stage=scene_commands.stage())
         self.tick()

@@ -11,7 +11,7 @@ from geometry_msgs.msg import Twist
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..words import number, within
-from .backend import Backend, LazyPublisher, let_time_go_on
+from .backend import LazyPublisher, Link, let_time_go_on
 from .live_widget import LiveWidget
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class Teleop(LiveWidget):
     unheard = traitlets.Unicode().tag(sync=True)
     """Why no node hears it; "" if one does."""
 
-    def __init__(self, backend: Backend, topic: str) -> None:
+    def __init__(self, backend: Link, topic: str) -> None:
         if not isinstance(topic, str) or not topic:
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
         name = backend.node.resolve_topic_name(topic)
