@@ -76,12 +76,9 @@ class ParametersPanel(LiveWidget):
         self._clients: dict[str, Client] = {}
         self._found_by = 0.0
         self._round = 0  # of questions
-        self._known = False
         self._trouble = ""
-        self._there = True
         super().__init__(backend, node_name=name)
         self.opened()
-        self._show()
 
     def opened(self) -> None:
         if not self._clients:
@@ -101,21 +98,17 @@ class ParametersPanel(LiveWidget):
             self.backend.node.destroy_client(self._clients.popitem()[1])
 
     def tick(self) -> None:
-        if not self.due("node", 3):
-            return
-        there = self.node_name in node_names(self.backend.node)
-        if self._clients and there and (not self._there or (self._trouble and not self._known)):
-            self._ask()
-        self._there = there
-        self._show()
+        if self._clients and self.due("node", 3):
+            before, self._trouble = self._trouble, self._why_not()
+            if before and not self._trouble:
+                self._ask()
+            self._show()
 
     # -- questions and answers -------------------------------------------------------------------------------------------
 
     def _ask(self) -> None:
         """Ask for names, descriptions and values anew."""
         self._round += 1
-        if not self._is_ready():
-            return
         turn = self._round
 
         def describe(answer: Any) -> None:
@@ -125,22 +118,22 @@ class ParametersPanel(LiveWidget):
         def get(names: list[str], descriptors: list[Any]) -> None:
             self._call("get", lambda told: self._take(names, descriptors, list(told.values)), turn, names=names)
 
-        self._call("list", describe, turn)
-
-    def _is_ready(self) -> bool:
-        """Whether the node's services are there; else the trouble is told."""
-        self._trouble = ""
-        if not all(client.service_is_ready() for client in self._clients.values()):
-            if self.backend.clock is None and self.backend.now < self._found_by:
-                self._trouble = f"Looking for the services of {self.node_name}."
-            elif self.node_name not in node_names(self.backend.node):
-                self._trouble = f"{self.node_name} is gone."
-            else:
-                self._trouble = (
-                    f"{self.node_name} offers no services for its parameters (start_parameter_services=False)."
-                )
+        self._trouble = self._why_not()
+        if not self._trouble:
+            self._call("list", describe, turn)
         self._show()
-        return not self._trouble
+
+    def _why_not(self) -> str:
+        """Why the node cannot be asked, as a sentence; "" if it can."""
+        names = node_names(self.backend.node)
+        if self.node_name not in names:
+            others = sorted({each for each in names if not is_hidden(each)})
+            return f"{self.node_name} is gone. The nodes now: {enumerated(others)}."
+        if all(client.service_is_ready() for client in self._clients.values()):
+            return ""
+        if self.backend.clock is None and self.backend.now < self._found_by:
+            return f"Looking for the services of {self.node_name}."
+        return f"{self.node_name} offers no services for its parameters (start_parameter_services=False)."
 
     def _call(self, what: str, take: Callable[[Any], object], turn: int | None = None, **content: Any) -> Future:
         """Call one of the services; `take` is given the answer, unless it is one to an older round of questions (`turn`)."""
@@ -166,7 +159,6 @@ class ParametersPanel(LiveWidget):
         self._found = {name: self._found.get(name) or Found(name) for name in names}
         for found, value, descriptor in zip(self._found.values(), values, descriptors, strict=True):
             found.value, found.descriptor = value, descriptor
-        self._known = True
 
     def _follow(self, event: Any) -> None:
         if event.node != self.node_name:
@@ -195,7 +187,8 @@ class ParametersPanel(LiveWidget):
         except ValueError as error:
             self._told(found, f"Not asked: {error}")
             return
-        if not self._is_ready():
+        self._trouble = self._why_not()
+        if self._trouble:
             self._told(found, f"Not asked: {self._trouble}")
             return
 
@@ -217,7 +210,7 @@ class ParametersPanel(LiveWidget):
     def do_ask(self) -> None:
         """Ask the node for all its parameters anew, and let a moment of robot time pass if it stands still."""
         self._ask()
-        in_a_moment(self.backend, lambda: bool(self._known or self._trouble))
+        in_a_moment(self.backend, lambda: bool(self._found or self._trouble))
         self._show()
 
     def _told(self, found: Found, trouble: str) -> None:
@@ -231,26 +224,15 @@ class ParametersPanel(LiveWidget):
     # -- what is shown ---------------------------------------------------------------------------------------------------
 
     def _show(self) -> None:
-        clock = self.backend.clock
+        clock, waits = self.backend.clock, not self._found and not self._trouble
         with self.hold_sync():
             self.items = [_item(found) for found in self._found.values()]
-            self.problem = self._why_nothing()
-            self.standing = bool(self.problem) and self._there and clock is not None and not clock.playing
-
-    def _why_nothing(self) -> str:
-        if not self._there:
-            others = sorted({each for each in node_names(self.backend.node) if not is_hidden(each)})
-            return f"{self.node_name} is gone. The nodes now: {enumerated(others)}."
-        if self._trouble:
-            return self._trouble
-        if not self._known:
-            return f"Asked {self.node_name}; it answers once robot time passes."
-        return "" if self._found else f"{self.node_name} has no parameters."
+            self.problem = f"Asked {self.node_name}; it answers once robot time passes." if waits else self._trouble
+            self.standing = waits and clock is not None and not clock.playing
 
     def _text(self) -> str:
-        problem = self._why_nothing()
-        if problem:
-            return f"Parameters of {self.node_name}: {problem}"
+        if self.problem:
+            return f"Parameters of {self.node_name}: {self.problem}"
         found = [f"{each.name} = {shown_parameter(each.value)}" for each in self._found.values()]
         return f"{self.node_name} has {count(len(found), 'parameter')}: {', '.join(found)}."
 
