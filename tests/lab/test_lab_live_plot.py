@@ -10,7 +10,7 @@ import pytest
 from lab_fakes import order
 
 from turtle_lesson import Lesson, start
-from turtle_lesson.lab.widgets.live_plot import figure, mistyped, split, thinned
+from turtle_lesson.lab.widgets.live_plot import figure, split, thinned
 
 
 def drawn(widget: Any) -> list[np.ndarray]:
@@ -74,7 +74,6 @@ def test_only_the_last_seconds_are_drawn(lesson: Lesson) -> None:
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        ("/turtle1/pos/x", 'Did you mean "/turtle1/pose"? The topics: /obstacles, /parameter_events'),
         ("/turtle1/pose", "is not a number but a turtlesim/msg/Pose: try /turtle1/pose/x, /turtle1/pose/y"),
         ("/turtle1/pose/thata", 'has no field "thata". Did you mean "theta"?'),
         ("/turtle1/cmd_vel/linear", "is not a number but a geometry_msgs/Vector3: try /turtle1/cmd_vel/linear/x"),
@@ -128,15 +127,11 @@ def test_a_topic_that_comes_with_another_type_is_explained(lesson: Lesson) -> No
     assert 'no field "bettery". Did you mean "battery"?' in widget.curves[0]["note"]
 
 
-def test_what_is_a_slip_and_what_is_yet_to_come() -> None:
-    topics = ["/turtle1/pose", "/world/obstacles", "/rosout"]
-    to_come = ["/robot/status", "/obstacles"]
-    assert mistyped("/turtle1/psoe/x", topics, to_come) == "/turtle1/pose"
-    assert mistyped("/Turtle1/Pose/x", topics, to_come) == "/turtle1/pose"
-    assert mistyped("/turtle2/pose/x", topics, to_come) == ""
-    assert mistyped("/obstacles/ranges[0]", topics, to_come) == ""
-    assert mistyped("/robot/status/battery", topics, to_come) == ""
-    assert mistyped("/something/else", topics, to_come) == ""
+def test_a_topic_that_is_mistyped_is_told_beside_its_curve(lesson: Lesson) -> None:
+    widget = lesson.live_plot("/turtle1/psoe/x", "/something/else")
+    slip, other = (curve["note"] for curve in widget.curves)
+    assert slip.startswith("There is no such topic yet; now there are /obstacles, ")
+    assert slip.endswith('Did you mean "/turtle1/pose"?') and "Did you mean" not in other
 
 
 def test_a_message_of_one_number_needs_no_field(lesson: Lesson) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -31,34 +32,26 @@ Ends = dict[str, list[str]]
 """Names of topics or services, with the types that are in use there."""
 
 
+USES = {"publishes": "publisher", "hears": "subscriber", "offers": "service", "calls": "client"}
+"""How a node uses topics and services, and what rclpy's questions about each use are called by."""
+
+
 @dataclass
 class NodeView:
-    """One node, and the topics and services that it uses. `copies` nodes have this very name."""
+    """One node, and what it uses, by the names in USES. `copies` nodes have this very name."""
 
     name: str
+    uses: dict[str, Ends]
     copies: int = 1
-    publishes: Ends = field(default_factory=dict)
-    hears: Ends = field(default_factory=dict)
-    offers: Ends = field(default_factory=dict)
-    calls: Ends = field(default_factory=dict)
 
 
 def read_system(node: Node) -> list[NodeView]:
     """Return the visible nodes that `node` (an rclpy Node) sees in the graph, sorted by name."""
-    found: dict[str, NodeView] = {}
-    for name, namespace in sorted(node.get_node_names_and_namespaces()):
-        node_name = full_name(name, namespace)
-        if node_name in found:
-            found[node_name].copies += 1
-        elif not is_hidden(node_name):
-            found[node_name] = NodeView(
-                node_name,
-                publishes=_visible(of_node(node, "get_publisher_names_and_types_by_node", node_name)),
-                hears=_visible(of_node(node, "get_subscriber_names_and_types_by_node", node_name)),
-                offers=_visible(of_node(node, "get_service_names_and_types_by_node", node_name)),
-                calls=_visible(of_node(node, "get_client_names_and_types_by_node", node_name)),
-            )
-    return [found[name] for name in sorted(found)]
+    copies = Counter(name for name in node_names(node) if not is_hidden(name))
+    return [
+        NodeView(name, {use: _visible(of_node(node, kind, name)) for use, kind in USES.items()}, amount)
+        for name, amount in copies.items()
+    ]
 
 
 def full_name(name: str, namespace: str) -> str:
@@ -82,11 +75,14 @@ def others(node: Node, ends: list[TopicEndpointInfo]) -> list[TopicEndpointInfo]
     return [end for end in ends if owner(end) != me]
 
 
-def of_node(node: Node, query: str, name: str) -> list[tuple[str, list[str]]]:
-    """What a query of the graph, such as "get_service_names_and_types_by_node", says of a node; nothing if it has just gone."""
+def of_node(node: Node, kind: str, name: str) -> list[tuple[str, list[str]]]:
+    """The topics or services with their types that a node has a "publisher", "subscriber", "service" or "client" of.
+
+    Nothing if it has just gone.
+    """
     namespace, _, base = name.rpartition("/")
     try:
-        return list(getattr(node, query)(base, namespace or "/"))
+        return list(getattr(node, f"get_{kind}_names_and_types_by_node")(base, namespace or "/"))
     except NodeNameNonExistentError:
         return []
 
@@ -96,7 +92,7 @@ def servers(node: Node, service: str) -> list[tuple[str, list[str]]]:
 
     A list of all services would also name those that are only asked for.
     """
-    offered = ((name, dict(of_node(node, "get_service_names_and_types_by_node", name))) for name in node_names(node))
+    offered = ((name, dict(of_node(node, "service", name))) for name in node_names(node))
     return [(name, types[service]) for name, types in offered if service in types]
 
 
@@ -109,9 +105,9 @@ def _visible(names_and_types: list[tuple[str, list[str]]]) -> Ends:
 
 
 def ends_of(nodes: list[NodeView], *uses: str) -> Ends:
-    """What these nodes use in these ways ("publishes", "hears", …), sorted, with all types in use there."""
+    """What these nodes use in these ways, sorted, with all types in use there."""
     found: dict[str, set[str]] = {}
-    for name, types in (end for node in nodes for use in uses for end in getattr(node, use).items()):
+    for name, types in (end for node in nodes for use in uses for end in node.uses[use].items()):
         found.setdefault(name, set()).update(types)
     return {name: sorted(types) for name, types in sorted(found.items())}
 
@@ -160,8 +156,7 @@ def plot_graph(node: Node) -> GraphPicture:
 
 
 def _node_sentence(node: NodeView) -> str:
-    verbs = {"publishes": node.publishes, "hears": node.hears, "offers": node.offers, "calls": node.calls}
-    parts = [f"{verb} {listed(list(ends))}" for verb, ends in verbs.items() if ends]
+    parts = [f"{use} {listed(list(ends))}" for use, ends in node.uses.items() if ends]
     name = node.name if node.copies == 1 else f"{node.name} ({node.copies} nodes of this name)"
     return f"{name} {'; '.join(parts) or 'uses no topic and no service'}."
 
@@ -239,22 +234,24 @@ def draw_graph(columns: dict[str, list[Box]], arrows: list[Arrow], title: str, d
 
 def _boxes(nodes: list[NodeView]) -> tuple[dict[str, list[Box]], list[Arrow]]:
     """The columns that have boxes, and all arrows. The services of a node that no node calls share one box."""
-    every = enumerate(ends_of(nodes, "publishes", "hears").items())
-    topics = {name: Box(f"t{at}", [name], types) for at, (name, types) in every}
-    called = {service for node in nodes for service in node.calls}
-    every = enumerate(ends_of(nodes, "offers", "calls").items())
-    services = {name: Box(f"s{at}", [name], types) for at, (name, types) in every if name in called}
+    called = {service for node in nodes for service in node.uses["calls"]}
+    topics, services = (
+        {name: Box(f"{letter}{at}", [name], types) for at, (name, types) in enumerate(ends_of(nodes, *uses).items())}
+        for letter, uses in (("t", ("publishes", "hears")), ("s", ("offers", "calls")))
+    )
+    services = {name: box for name, box in services.items() if name in called}
     columns: dict[str, list[Box]] = {"services": list(services.values()), "nodes": [], "topics": list(topics.values())}
     arrows: list[Arrow] = []
     for at, view in enumerate(nodes):
         box = Box(f"n{at}", [view.name], [f"{view.copies} nodes of this name"] if view.copies > 1 else [])
         columns["nodes"].append(box)
-        arrows += [Arrow(box, topics[name], inward=False) for name in view.publishes]
-        arrows += [Arrow(box, topics[name], inward=True) for name in view.hears]
-        arrows += [Arrow(box, services[name], inward=False, dashed=True) for name in view.calls]
-        arrows += [Arrow(box, services[name], inward=True, dashed=True) for name in view.offers if name in called]
-        if waiting := [name for name in view.offers if name not in called]:
-            shared = Box(f"w{at}", waiting, view.offers[waiting[0]] if len(waiting) == 1 else [])
+        arrows += [Arrow(box, topics[name], inward=False) for name in view.uses["publishes"]]
+        arrows += [Arrow(box, topics[name], inward=True) for name in view.uses["hears"]]
+        arrows += [Arrow(box, services[name], inward=False, dashed=True) for name in view.uses["calls"]]
+        offers = view.uses["offers"]
+        arrows += [Arrow(box, services[name], inward=True, dashed=True) for name in offers if name in called]
+        if waiting := [name for name in offers if name not in called]:
+            shared = Box(f"w{at}", waiting, offers[waiting[0]] if len(waiting) == 1 else [])
             columns["services"].append(shared)
             arrows.append(Arrow(box, shared, inward=True, dashed=True))
     for arrow in arrows:

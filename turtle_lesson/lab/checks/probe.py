@@ -242,7 +242,7 @@ class Probe:
 
     def subscribed(self, name: str) -> list[str]:
         """The names of the topics that a node listens to."""
-        found = of_node(self.node, "get_subscriber_names_and_types_by_node", name)
+        found = of_node(self.node, "subscriber", name)
         return [topic for topic, _ in found if not is_hidden(topic)]
 
     def topics(self) -> list[str]:

@@ -13,9 +13,9 @@ from rclpy.node import Node
 
 from ...ros.idl.names import is_hidden, nearest
 from .. import drawing
-from ..drawing import Picture
+from ..drawing import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILLION, Picture
 from ..recorder import Channel
-from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
+from ..recording import NANOSECONDS, Table
 from ..status_and_scan import label_beside, spread
 from ..words import count, enumerated, number, suggestion, within
 from .backend import Link
@@ -29,7 +29,7 @@ KEPT = 20_000
 """Numbers that are kept of a curve: more than five minutes of a turtle's pose."""
 
 SLIP = 0.8
-"""A topic that is not there, but this much like one that is, counts as mistyped; less like one, as yet to come."""
+"""A topic that is not there, but this much like one that is, was perhaps mistyped; less like one, it is yet to come."""
 
 _STEP = re.compile(r"[/.]?([A-Za-z_]\w*)|\[(\d+)\]")
 
@@ -59,7 +59,9 @@ class Curve:
         self.topic, rest = split(self.asked, topics)
         if not self.topic:
             visible = [name for name in topics if not is_hidden(name)]
-            self.problem = f"There is no such topic yet; now there are {enumerated(visible)}."
+            meant = nearest(self.asked, visible, SLIP)
+            hint = f' Did you mean "{meant}"?' if meant else ""
+            self.problem = f"There is no such topic yet; now there are {enumerated(visible)}.{hint}"
             return
         self.type_name = topics[self.topic][0]
         self.path = rest.lstrip("/.").replace(".", "/")
@@ -129,21 +131,6 @@ def reader(steps: list[Step]) -> Callable[[Any], float]:
     return read
 
 
-def mistyped(asked: str, topics: Iterable[str], to_come: Iterable[str]) -> str:
-    """The topic that was probably meant, or "" if this may well be one that is yet to come.
-
-    One that differs in its digits only (/turtle2/pose beside /turtle1/pose) may.
-    """
-    if split(asked, to_come)[0]:
-        return ""
-    names = re.split(r"[/.\[]", asked)
-    for topic in topics:
-        begin = "/".join(names[: topic.count("/") + 1])
-        if nearest(begin, [topic], SLIP) and re.sub(r"\d+", "#", begin) != re.sub(r"\d+", "#", topic):
-            return topic
-    return ""
-
-
 MOST = 8
 """More curves than this cannot be told apart in one picture."""
 
@@ -178,14 +165,8 @@ class LivePlot(LiveWidget):
         self._channels: dict[str, Channel] = {}
         self._timer: Timer | None = None
         within("seconds of a live plot", seconds, 0.1, 3600)
-        topics, recorder = dict(backend.node.get_topic_names_and_types()), backend.recorder
-        to_come = {STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC, recorder.pose_topic, recorder.command_topic}
-        visible = [name for name in topics if not is_hidden(name)]
         for curve in self._curves:
-            curve.find(topics)
-            if not curve.topic and (meant := mistyped(curve.asked, visible, to_come)):
-                known = f"The topics: {enumerated(visible)}."
-                raise ValueError(f'there is no topic for "{curve.asked}". Did you mean "{meant}"? {known}')
+            curve.find(dict(backend.node.get_topic_names_and_types()))
         super().__init__(backend, seconds=float(seconds))
         self._listen()
         self.tick()
@@ -325,19 +306,7 @@ def _checked(node: Node, fields: Iterable[str]) -> list[str]:
     return [each if each.startswith("/") else f"{space}/{each}" for each in wanted]
 
 
-Window = tuple[str, np.ndarray, np.ndarray]
-"""A curve's name, its times (s) and its numbers."""
-
-COLOURS = (
-    drawing.BLUE,
-    drawing.VERMILLION,
-    drawing.GREEN,
-    drawing.PURPLE,
-    drawing.ORANGE,
-    drawing.SKY,
-    "#8a6fd0",
-    drawing.INK,
-)
+COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, "#8a6fd0", INK)
 DASHES: Sequence[Any] = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (8, 2, 2, 2)), "-", (0, (6, 2)), (0, (2, 1.5)), "-")
 """Dashes tell curves apart without colours, too; they are those of live_plot.js."""
 
@@ -345,8 +314,8 @@ LONGEST_NAME = 14
 """Characters of a curve's name that fit beside it; the end of a longer one, which tells most, is kept."""
 
 
-def draw(text: str, windows: list[Window], now: float, seconds: float) -> Picture:
-    """The curves over the last `seconds` before `now`; a text alone where there is nothing to draw."""
+def draw(text: str, windows: list[tuple[str, np.ndarray, np.ndarray]], now: float, seconds: float) -> Picture:
+    """The curves over the last `seconds` before `now`, each its name, times (s) and numbers; a text alone where none is."""
     if not any(np.isfinite(values).any() for _, _, values in windows):
         return Picture(text)
     with drawing.applied():
