@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..turtlesim.obstacles import Obstacle
+    from .widgets.goal_client import Goal
 
 WORLD = 11.088889
 """Side of turtlesim's square world in metres: 499 pixels at its 45 pixels a metre."""
@@ -132,7 +133,7 @@ class Recording:
     """The newest messages about one turtle, in the order in which they came.
 
     `origin` (ns) is the moment that plots call 0 s. Tables keep `limit` rows each. `last_scan` is the newest
-    sensor_msgs/msg/LaserScan, `obstacles` what stands in the world now.
+    sensor_msgs/msg/LaserScan, `obstacles` what stands in the world now, `goals` what widgets have sent, the oldest first.
     """
 
     def __init__(self, *, turtle: str = "turtle1", origin: int = 0, limit: int = LIMIT) -> None:
@@ -145,6 +146,7 @@ class Recording:
         self.worlds = Table(limit=limit)
         self.last_scan: Any = None
         self.obstacles: dict[tuple[str, int], Obstacle] = {}
+        self.goals: list[Goal] = []
 
     @property
     def pose_topic(self) -> str:

@@ -9,7 +9,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
-from weakref import WeakSet
 
 from rcl_interfaces.msg import Log
 from rclpy.subscription import Subscription
@@ -68,15 +67,6 @@ class Goal:
         return self.state in WAITING
 
 
-_desks: WeakSet[GoalClient] = WeakSet()
-
-
-def goals_from(backend: Link) -> list[Goal]:
-    """All goals that were sent from this page, whichever of its widgets sent them, the oldest first."""
-    here = [desk for desk in _desks if desk.recorder is backend.recorder]
-    return sorted((goal for desk in here for goal in desk.goals), key=lambda goal: goal.sent)
-
-
 class GoalClient:
     """Sends goals and keeps their list; `changed(goal)` is called with each news of one.
 
@@ -87,20 +77,12 @@ class GoalClient:
         self._backend, self._changed = backend, changed
         self._client: Any = None
         self._found_by = 0.0
-        self._asked: dict[int, Future] = {}
         self._unexplained: dict[int, Goal] = {}
-        self._wanted = False
         self._log: Subscription | None = None
         self._servers: list[str] = []
         self._ends: set[tuple[int, ...]] = set()
         self._warnings: deque[tuple[float, str]] = deque(maxlen=1000)
         self.goals: list[Goal] = []
-        _desks.add(self)
-
-    @property
-    def recorder(self) -> object:
-        """What the desk's system is known by; None once it has ended."""
-        return None if self._backend.ended else self._backend.recorder
 
     def send(self, x: float, y: float, theta: float) -> Goal:
         """Ask the navigator to drive there. Raises ValueError for what is no number."""
@@ -109,6 +91,7 @@ class GoalClient:
         if pose := self._backend.recorder.pose():
             goal.away = math.dist((goal.x, goal.y), pose[:2])
         self.goals.append(goal)
+        self._backend.recorder.goals.append(goal)
         self._ask(goal)
         self._changed(goal)
         return goal
@@ -120,22 +103,11 @@ class GoalClient:
                 self._ask(goal)
             # started again, it has forgotten all calls: the end with which it publishes its log is another one then
             elif not (self._client.service_is_ready() and self._ends <= self._rosout_ends()):
-                self._client.remove_pending_request(self._asked.pop(goal.number, None))
                 words = "The navigator was stopped on the way; send the goal again when another one is running."
                 self._finish(goal, "no answer", words)
 
-    def open(self) -> None:
-        """Somebody looks."""
-        self._wanted = True
-
-    def rest(self) -> None:
-        """The widget is no longer shown: stop listening, as soon as every goal has its answer."""
-        self._wanted = False
-        self._leave_if_done()
-
     def close(self) -> None:
         """Ask no more, and listen no more."""
-        self._asked.clear()
         if self._log is not None:
             self._backend.node.destroy_subscription(self._log)
         if self._client is not None:
@@ -162,7 +134,7 @@ class GoalClient:
             self._found_by = now + (DISCOVERY if self._backend.clock is None else 0)
         if self._client.service_is_ready():
             goal.state = "on its way"
-            self._asked[goal.number] = future = self._client.call_async(request)
+            future = self._client.call_async(request)
             # after the request, which need not wait for it: nothing is heard within this turn of the loop
             self._servers = [name for name, _ in servers(node, SERVICE)]
             self._ends = self._rosout_ends()
@@ -176,7 +148,7 @@ class GoalClient:
             self._finish(goal, "not sent", f"No node answers {SERVICE}. {how}")
 
     def _answered(self, goal: Goal, future: Future) -> None:
-        if self._asked.pop(goal.number, None) is None:
+        if not goal.waits:
             return
         try:
             response = future.result()
@@ -195,11 +167,6 @@ class GoalClient:
     def _finish(self, goal: Goal, state: str, answer: str) -> None:
         goal.state, goal.answer, goal.ended = state, answer, self._backend.now
         self._changed(goal)
-        self._leave_if_done()
-
-    def _leave_if_done(self) -> None:
-        if not self._wanted and not any(goal.waits for goal in self.goals):
-            self.close()
 
     def _hear(self, message: Log) -> None:
         names = [name.strip("/").replace("/", ".") for name in self._servers]

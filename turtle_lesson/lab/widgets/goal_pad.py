@@ -90,11 +90,10 @@ class GoalPad(LiveWidget):
         super().__init__(backend, panels=list(self.PANELS), **traits)
         self.tick()
 
-    def opened(self) -> None:
-        self.desk.open()
-
     def closed(self) -> None:
-        self.desk.rest()
+        """Stop listening, as soon as every goal has its answer."""
+        if not any(goal.waits for goal in self.desk.goals):
+            self.desk.close()
 
     def left(self) -> None:
         self.desk.close()
@@ -261,6 +260,8 @@ class GoalPad(LiveWidget):
     def _goal_changed(self, goal: Goal) -> None:
         self._goal_news = True
         self.words = f"Goal {goal.number} at {point(goal.x, goal.y)} m: {_ending(goal)}"
+        if not self._is_open:
+            self.closed()
 
 
 def _ending(goal: Goal) -> str:

@@ -18,7 +18,7 @@ from ..recording import WORLD
 from ..status_and_scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_commands, scene_mesh
-from .goal_client import Goal, goals_from
+from .goal_client import Goal
 from .live_widget import LiveWidget
 from .scene_commands import viewer_bundle
 from .scene_mesh import Mesh, joined, placed, prism
@@ -122,7 +122,7 @@ class Scene(LiveWidget):
 
     def _current_goal(self) -> Goal | None:
         """The newest goal from this page, unless the navigator did not take it."""
-        goals = [goal for goal in goals_from(self.backend) if goal.state in ("on its way", "reached")]
+        goals = [goal for goal in self.backend.recorder.goals if goal.state in ("on its way", "reached")]
         return goals[-1] if goals else None
 
 

@@ -15,7 +15,6 @@ import numpy as np
 from ..path import distance_driven, find_jumps, thinned
 from ..words import number, point
 from . import scene_commands
-from .goal_client import goals_from
 from .live_widget import pack, script, styles
 from .scene_commands import cast_no_shadow, packed, show
 from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
@@ -123,7 +122,7 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
         f"Replay of {recorder.turtle} from {number(begin)} s to {number(end)} s of robot time: {number(driven)} m driven, "
         f"from {point(poses[0]['x'], poses[0]['y'])} m to {point(poses[-1]['x'], poses[-1]['y'])} m."
     )
-    goals = [goal for goal in goals_from(scene.backend) if goal.was_taken]
+    goals = [goal for goal in recorder.goals if goal.was_taken]
     trail, growth = _trail(poses, times, jumps, driven)
     flags, appear = _flags(goals, begin, end)
     tracks = {scene_commands.TURTLE: _drive(poses, times, jumps), **appear}
