@@ -197,9 +197,9 @@ def test_a_type_that_cannot_be_imported_yet_is_named_and_heard_once_it_can(bench
     bench.publish(status, "/robot/status", status(battery=50.0))
     bench.run(1.0)
     assert plot_status(bench.recorder).text == (
-        "No status yet. /robot/status is published as robot_controller/msg/TurtleStatus, but that type "
-        "cannot be imported here: try colcon build --packages-select robot_controller, "
-        "then source install/setup.bash"
+        "No status yet. /robot/status is published, but the type robot_controller/msg/TurtleStatus cannot be imported "
+        "here: is its package built and sourced? Try colcon build --packages-select robot_controller, then source "
+        "install/setup.bash"
     )
     package(STATUS_FIELDS)
     bench.recorder.look()

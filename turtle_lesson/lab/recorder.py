@@ -45,25 +45,18 @@ PATIENCE = 1.5 * NANOSECONDS
 """Robot time, ns, after which obstacles that were published must have been heard; the recorder looks around every second."""
 
 
-@dataclass(frozen=True, slots=True)
-class Advice:
-    """What to try where nothing was heard: how to start a simulator, start the lesson's nodes, and wait."""
+Advice = tuple[str, str, str]
+"""What to try where nothing was heard: how to start a simulator, how to start the lesson's nodes, and how to wait."""
 
-    simulator: str
-    launch: str
-    patience: str
-
-
-_BY_HAND = "ros2 run turtlesim turtlesim_node"
-IN_A_LESSON = Advice(
-    simulator=f"start(simulator=True), or: {_BY_HAND}",
-    launch='lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller',
-    patience="Let time pass: lesson.run(1.0)",
+IN_A_LESSON: Advice = (
+    "start(simulator=True), or: ros2 run turtlesim turtlesim_node",
+    'lesson.launch("robot_controller", "start_system.launch.py"), or: ros2 run robot_controller',
+    "Let time pass: lesson.run(1.0)",
 )
-ON_A_ROBOT = Advice(
-    simulator=f"in a terminal: {_BY_HAND}",
-    launch="in a terminal: ros2 launch robot_controller start_system.launch.py, or: ros2 run robot_controller",
-    patience="Wait a moment",
+ON_A_ROBOT: Advice = (
+    "in a terminal: ros2 run turtlesim turtlesim_node",
+    "in a terminal: ros2 launch robot_controller start_system.launch.py, or: ros2 run robot_controller",
+    "Wait a moment",
 )
 
 
@@ -120,13 +113,14 @@ class Recorder(Recording):
         scan, markers = "sensor_msgs/msg/LaserScan", "visualization_msgs/msg/MarkerArray"
         commands = self.commands.listener("linear.x", "linear.y", "angular.z")
         poses = self.poses.listener("x", "y", "theta", "linear_velocity")
-        simulator = f"Is the simulator running? Try {advice.simulator}"
-        channel = partial(Channel, node, patience=advice.patience)
+        start, launch, patience = advice
+        simulator = f"Is the simulator running? Try {start}"
+        channel = partial(Channel, node, patience=patience)
         channels = (
             channel(self.pose_topic, pose, lambda _: poses, simulator),
-            channel(self.command_topic, twist, lambda _: commands, f"Try {advice.launch} navigator", driven=True),
-            channel(STATUS_TOPIC, STATUS_TYPE, self._status_listener, f"Try {advice.launch} status_monitor"),
-            channel(SCAN_TOPIC, scan, lambda _: self._hear_scan, f"Try {advice.launch} obstacle_detector"),
+            channel(self.command_topic, twist, lambda _: commands, f"Try {launch} navigator", driven=True),
+            channel(STATUS_TOPIC, STATUS_TYPE, self._status_listener, f"Try {launch} status_monitor"),
+            channel(SCAN_TOPIC, scan, lambda _: self._hear_scan, f"Try {launch} obstacle_detector"),
             channel(OBSTACLE_TOPIC, markers, lambda _: self._hear_markers, simulator, latched=True),
         )
         return {each.topic: each for each in channels}
@@ -191,7 +185,10 @@ class Channel:
 
     def follow(self) -> None:
         """Subscribe if there is a publisher, unsubscribe if there is none any more."""
-        message_type = self._find_message_type() if self._wanted() else None
+        message_type = None
+        if self._wanted():
+            with suppress(ValueError):  # its package is not built and sourced
+                message_type = find_class(self.type_name)
         if message_type is self._message_type:
             return
         self.close()
@@ -220,10 +217,10 @@ class Channel:
         if self.type_name not in types:
             mismatch = f"{self.topic} is published as {listed(types)}, but this plot reads {self.type_name}"
             return f"{mismatch}: compare the types in ros2 topic info {self.topic} --verbose"
-        if self._find_message_type() is None:
-            package = self.type_name.split("/")[0]
-            unknown = f"{self.topic} is published as {self.type_name}, but that type cannot be imported here"
-            return f"{unknown}: try colcon build --packages-select {package}, then source install/setup.bash"
+        try:
+            find_class(self.type_name)
+        except ValueError as error:
+            return f"{self.topic} is published, but {error}"
         names = listed(sorted(set(map(owner, publishers))))
         return f"{names} can publish {self.topic}, but no message has come yet. {self.patience}"
 
@@ -235,13 +232,25 @@ class Channel:
             ends = self.node.get_publishers_info_by_topic(self.topic)
         return any(end.topic_type == self.type_name for end in ends)
 
-    def _find_message_type(self) -> Any:
-        """The message class, or None if it cannot be imported (a package that is not built and sourced)."""
-        package, _, name = self.type_name.split("/")
-        try:
-            return getattr(importlib.import_module(f"{package}.msg"), name, None)
-        except ImportError:
-            return None
+
+def find_class(type_name: str) -> Any:
+    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist", "turtlesim/srv/Spawn" or of an action's feedback.
+
+    Raises ValueError where it cannot be imported, with what to try.
+    """
+    package, _, rest = type_name.partition("/")
+    folder, _, name = rest.rpartition("/")
+    try:
+        if "_" in name and folder in ("", "action"):  # "X_Feedback" is X.Feedback, "X_FeedbackMessage" is in X.Impl
+            action_name, _, part = name.partition("_")
+            action = getattr(importlib.import_module(f"{package}.action"), action_name)
+            return getattr(action, part) if hasattr(action, part) else getattr(action.Impl, part)
+        return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
+    except (ImportError, AttributeError):
+        raise ValueError(
+            f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
+            f"colcon build --packages-select {package}, then source install/setup.bash"
+        ) from None
 
 
 # visualization_msgs/msg/Marker: its types and actions

@@ -6,7 +6,6 @@ attributes in capitals), so it works alike with the simulated ones and with the 
 
 from __future__ import annotations
 
-import importlib
 import math
 import re
 from collections.abc import Callable, Iterator
@@ -17,6 +16,7 @@ import numpy as np
 
 from ...ros.idl.checks import FLOAT_BOUNDS
 from ...ros.idl.names import integer_bounds
+from ..recorder import find_class
 from ..words import same, shortened
 
 FLOATS = {"float", "double"}
@@ -107,26 +107,6 @@ def read_number(text: str, base: str) -> float:
         if not low <= value <= high:
             raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
-
-
-def find_class(type_name: str) -> Any:
-    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist", "turtlesim/srv/Spawn" or of an action's feedback.
-
-    Raises ValueError where it cannot be imported, with what to try.
-    """
-    package, _, rest = type_name.partition("/")
-    folder, _, name = rest.rpartition("/")
-    try:
-        if "_" in name and folder in ("", "action"):  # "X_Feedback" is X.Feedback, "X_FeedbackMessage" is in X.Impl
-            action_name, _, part = name.partition("_")
-            action = getattr(importlib.import_module(f"{package}.action"), action_name)
-            return getattr(action, part) if hasattr(action, part) else getattr(action.Impl, part)
-        return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
-    except (ImportError, AttributeError):
-        raise ValueError(
-            f"the type {type_name} cannot be imported here: is its package built and sourced? Try "
-            f"colcon build --packages-select {package}, then source install/setup.bash"
-        ) from None
 
 
 def plain(value: Any, kind: Kind) -> Any:
