@@ -21,6 +21,7 @@ from turtle_lesson.lab.widgets.message_fields import (
     constants_of,
     find_class,
     find_part,
+    form_of,
     in_yaml,
     kinds_of,
     read_kind,
@@ -29,7 +30,7 @@ from turtle_lesson.ros.idl.names import integer_bounds, is_hidden
 
 
 def group(type_name: str) -> Group:
-    return Group(find_class(type_name))
+    return form_of(find_class(type_name))
 
 
 def put(whole: Group, path: str, text: Any) -> Single:

@@ -12,7 +12,7 @@ from ...ros.idl.names import is_hidden
 from ..words import count, listed, suggestion, within
 from .backend import LazyClient, LazyPublisher, Link, let_time_go_on
 from .live_widget import LiveWidget
-from .message_fields import Group, Part, Rows, Single, find_class, find_part
+from .message_fields import Group, Part, Rows, Single, find_class, find_part, form_of
 
 if TYPE_CHECKING:
     from rclpy.timer import Timer
@@ -58,7 +58,7 @@ class Form(LiveWidget):
     def __init__(self, backend: Link, name: str) -> None:
         full, kind, type_name = _look_up(backend.node, name)
         message_class = find_class(type_name)
-        self._whole = Group(message_class if kind == "topic" else message_class.Request)
+        self._whole = form_of(message_class if kind == "topic" else message_class.Request)
         self._publisher = LazyPublisher(backend, full, message_class, type_name)
         self._client = LazyClient(backend, message_class, full)
         self._timer: Timer | None = None
@@ -92,7 +92,7 @@ class Form(LiveWidget):
 
     def do_reset(self) -> None:
         """Put the defaults into all fields."""
-        self._whole = Group(self._whole.message_class)
+        self._whole = form_of(self._whole.message_class)
         self._bring_up_to_date(fields_too=True)
 
     def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:

@@ -157,9 +157,17 @@ Build = Callable[[], Any]
 class Part:
     """A part of a form: a single field, the fields of a message, or the rows of an array."""
 
-    def __init__(self, name: str, kind: Kind, whole: Part | None) -> None:
+    def __init__(
+        self, name: str, kind: Kind, value: Any, constants: dict[str, Any] | None = None, whole: Part | None = None
+    ) -> None:
         self.name, self.kind, self.whole = name, kind, whole
+        self.constants = constants or {}
         self.parts: list[Part] = []
+        self._fill(value)
+
+    def _fill(self, value: Any) -> None:
+        """Take this value as the default."""
+        raise NotImplementedError
 
     @property
     def path(self) -> str:
@@ -188,12 +196,11 @@ class Part:
 class Single(Part):
     """One value: a number, true or false, or a text. `text` is what stands in the field."""
 
-    def __init__(self, name: str, kind: Kind, value: Any, constants: dict[str, Any], whole: Part | None = None) -> None:
-        super().__init__(name, kind, whole)
-        self.default = plain(value, kind)
+    def _fill(self, value: Any) -> None:
+        self.default = plain(value, self.kind)
         self.text: str | bool = self.default if isinstance(self.default, (bool, str)) else repr(self.default)
         alike = () if isinstance(self.default, bool) else (type(self.default),)
-        self.constants = {each: found for each, found in constants.items() if type(found) in alike}
+        self.constants = {name: each for name, each in self.constants.items() if type(each) in alike}
 
     def value(self) -> Any:
         """The value, as YAML has it. Raises ValueError, in words, for what the field cannot be."""
@@ -238,26 +245,17 @@ class Single(Part):
 class Group(Part):
     """The fields of one message. If `is_time`, it is a time that can be filled with the moment of sending."""
 
-    def __init__(
-        self,
-        message_class: Any,
-        name: str = "",
-        kind: Kind = Kind(""),
-        message: Any = None,
-        whole: Part | None = None,
-    ) -> None:
-        super().__init__(name, kind, whole)
-        self.message_class = message_class
-        self.is_time = kind.base == TIME
+    def _fill(self, value: Any) -> None:
+        self.message_class = type(value)
+        self.is_time = self.kind.base == TIME
         self.now = self.is_time and self.path.endswith("header/stamp")
-        message = message_class() if message is None else message
-        constants, kinds = constants_of(message_class), kinds_of(message_class)
+        constants, kinds = constants_of(self.message_class), kinds_of(value)
         prefixes = {field: f"{field.upper()}_" for field in kinds}
         # a type does not say which constants belong to which field: their names may
-        anyone = {each: value for each, value in constants.items() if not each.startswith(tuple(prefixes.values()))}
-        for field, found in kinds.items():
-            own = {each: value for each, value in constants.items() if each.startswith(prefixes[field])}
-            self.parts.append(make_part(field, found, getattr(message, field), own or anyone, self))
+        anyone = {name: each for name, each in constants.items() if not name.startswith(tuple(prefixes.values()))}
+        for field, kind in kinds.items():
+            own = {name: each for name, each in constants.items() if name.startswith(prefixes[field])}
+            self.parts.append(make_part(field, kind, getattr(value, field), own or anyone, self))
 
     def build(self, now: Build) -> Any:
         if self.now:
@@ -284,18 +282,14 @@ class Group(Part):
 class Rows(Part):
     """An array: a row for each element."""
 
-    def __init__(
-        self, name: str, kind: Kind, values: Any, constants: dict[str, Any], whole: Part | None = None
-    ) -> None:
-        super().__init__(name, kind, whole)
-        self._constants = constants
-        for value in values:
-            self._append(value)
+    def _fill(self, value: Any) -> None:
+        for each in value:
+            self._append(each)
         self.default = [part.default for part in self.parts if isinstance(part, Single)]
         self._count = len(self.parts)
 
     def _append(self, value: Any) -> None:
-        self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self._constants, self))
+        self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self.constants, self))
 
     @property
     def why_full(self) -> str:
@@ -339,11 +333,13 @@ class Rows(Part):
 
 def make_part(name: str, kind: Kind, value: Any, constants: dict[str, Any], whole: Part) -> Part:
     """The part of a form for a field of this kind, with this value in it."""
-    if kind.array:
-        return Rows(name, kind, value, constants, whole)
-    if kind.is_message:
-        return Group(find_class(kind.base), name, kind, value, whole)
-    return Single(name, kind, value, constants, whole)
+    made = Rows if kind.array else Group if kind.is_message else Single
+    return made(name, kind, value, constants, whole)
+
+
+def form_of(message_class: Any) -> Group:
+    """A form for messages of this class, with their defaults in it."""
+    return Group("", Kind(""), message_class())
 
 
 def find_part(whole: Part, path: str) -> Part:
