@@ -71,10 +71,10 @@ def distance_driven(poses: np.ndarray, jumps: np.ndarray) -> float:
     return math.fsum(steps)
 
 
-def thinned(poses: np.ndarray, jumps: np.ndarray, spacing: float = 0.03) -> np.ndarray:
-    """Return indices of poses about `spacing` metres apart, with both sides of each jump and both ends."""
+def thinned(poses: np.ndarray, jumps: np.ndarray) -> np.ndarray:
+    """Return indices of poses about 3 cm apart, with both sides of each jump and both ends."""
     way = np.concatenate([[0.0], np.cumsum(_steps(poses))])
-    fresh = np.flatnonzero(np.diff(np.floor(way / spacing))) + 1
+    fresh = np.flatnonzero(np.diff(np.floor(way / 0.03))) + 1
     return np.unique(np.concatenate([[0, len(poses) - 1], fresh, jumps, jumps - 1]).astype(int))
 
 

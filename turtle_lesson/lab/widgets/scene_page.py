@@ -6,16 +6,16 @@ import base64
 import html
 import json
 import math
-from itertools import pairwise
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..path import distance_driven, find_jumps, thinned
+from ..path import distance_driven, find_jumps
 from ..words import number, point
 from . import scene_commands
-from .live_widget import pack, script, styles
+from .live_widget import FOLDER, pack, script, styles
 from .scene_commands import cast_no_shadow, packed, show
 from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
 
@@ -34,41 +34,22 @@ POLICY = (
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
 )
 
-FRAME = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<title>{title}</title>
-<style>
-{css}
-</style>
-</head>
-<body>
-<main id="page"></main>
-<script type="application/json" id="state">
-{state}
-</script>
-<script>
-{script}
-</script>
-</body>
-</html>
-"""
-
 
 class ScenePage:
     """A page of HTML, and the same in words. `html` is the page, `text` says what it shows."""
 
     def __init__(self, title: str, text: str, state: dict[str, Any]) -> None:
         self.text = text
-        self.html = FRAME.format(
-            policy=POLICY,
-            title=html.escape(title),
-            css=styles("base", "scene", "scene_page"),
-            state=json.dumps(state, sort_keys=True, default=_written).replace("<", "\\u003c"),
-            script=script(*VIEW_SCRIPTS, "scene_page"),
+        self.html = (
+            (FOLDER / "scene_page.html")
+            .read_text(encoding="utf-8")
+            .format(
+                policy=POLICY,
+                title=html.escape(title),
+                css=styles("base", "scene", "scene_page"),
+                state=json.dumps(state, sort_keys=True, default=_written).replace("<", "\\u003c"),
+                script=script(*VIEW_SCRIPTS, "scene_page"),
+            )
         )
 
     def save(self, path: str | Path) -> Path:
@@ -97,13 +78,13 @@ def _written(value: bytes) -> dict[str, str]:
     return {"base64": base64.b64encode(value).decode("ascii")}
 
 
-PERIOD = 0.1
-"""Seconds between two poses of the animation, which are joined evenly …"""
+PERIOD = 0.05
+"""Seconds between two poses of a replay, which are joined evenly …"""
 MOST = 4000
 """… and more for a run that would need more poses than this."""
 
-Tracks = dict[str, tuple[str, list[float], list[Any]]]
-"""By a property's name: its type in three.js, times (s) and values."""
+Track = dict[str, Any]
+"""How one property changes, as three.js has it."""
 
 
 def replay_page(scene: Scene, since: float | None, until: float | None) -> ScenePage:
@@ -114,18 +95,18 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
     if len(poses) < 2:
         raise ValueError(f"There is no run to replay in that time. {recorder.why_silent(recorder.pose_topic)}")
     scene.redraw()
-    jumps = find_jumps(poses)
-    times = (poses["stamp"] - poses["stamp"][0]) / 1e9
     begin, end = (float(recorder.seconds(poses[at]["stamp"])) for at in (0, -1))
-    driven = distance_driven(poses, jumps)
+    driven = distance_driven(poses, find_jumps(poses))
     text = (
         f"Replay of {recorder.turtle} from {number(begin)} s to {number(end)} s of robot time: {number(driven)} m driven, "
         f"from {point(poses[0]['x'], poses[0]['y'])} m to {point(poses[-1]['x'], poses[-1]['y'])} m."
     )
-    goals = [goal for goal in recorder.goals if goal.was_taken]
-    trail, growth = _trail(poses, times, jumps, driven)
-    flags, appear = _flags(goals, begin, end)
-    tracks = {scene_commands.TURTLE: _drive(poses, times, jumps), **appear}
+    turtle, trail, growth = _run(poses)
+    flags, appear = _flags([goal for goal in recorder.goals if goal.was_taken], begin, end)
+    clips = {scene_commands.TURTLE: turtle, **appear}
+    animations = [  # one frame a second, so that a frame's number is its time
+        {"path": f"/{path}", "clip": {"fps": 1, "name": "default", "tracks": tracks}} for path, tracks in clips.items()
+    ]
     state = {
         **state_of(scene),
         "turtle": scene_commands.turtle_at(*(float(poses[0][name]) for name in ("x", "y", "theta"))),
@@ -134,7 +115,7 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
         "scan": [],
         "goal": flags,
         "description": text,
-        "animation": _animation(tracks),
+        "animation": packed("set_animation", "", animations=animations, options={"play": False, "repetitions": 1}),
         "growth": growth,
         "begin": begin,
         "seconds": end - begin,
@@ -142,77 +123,48 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
     return ScenePage("3-D replay", text, state)
 
 
-def _drive(poses: np.ndarray, times: np.ndarray, jumps: np.ndarray) -> Tracks:
-    """Where the turtle is: fewer poses than were heard, and none while it stands."""
-    period = max(PERIOD, float(times[-1]) / MOST)
-    regular = np.searchsorted(times, np.arange(0.0, times[-1], period))
+def _track(name: str, kind: str, times: Iterable[float], values: Iterable[Any]) -> Track:
+    keys = [{"time": round(time, 4), "value": value} for time, value in zip(times, values, strict=True)]
+    return {"name": f".{name}", "type": kind, "keys": keys}
+
+
+def _run(poses: np.ndarray) -> tuple[list[Track], list[bytes], bytes]:
+    """Where the turtle is, its whole trail, and how much of that is drawn when, from fewer poses than were heard.
+
+    A mesh's extent is nothing that three.js animates, so the page itself sets it (js/scene_page.js): it gets times (s), each
+    with a number of corners, six a step.
+    """
+    jumps, times = find_jumps(poses), (poses["stamp"] - poses["stamp"][0]) / 1e9
+    regular = np.searchsorted(times, np.arange(0.0, times[-1], max(PERIOD, times[-1] / MOST)))
     chosen = np.unique([*regular, *jumps, *(jumps - 1), 0, len(poses) - 1])
     places = np.column_stack([poses["x"], poses["y"], poses["theta"]])[chosen]
-    stays = np.zeros(len(chosen), bool)
-    stays[1:-1] = (places[1:-1] == places[:-2]).all(axis=1) & (places[1:-1] == places[2:]).all(axis=1)
-    when = [round(each, 4) for each in times[chosen[~stays]].tolist()]
-    kept = places[~stays].tolist()
-    where = [[round(x, 4), round(y, 4), 0.0] for x, y, _ in kept]
-    turns = [[0.0, 0.0, round(math.sin(theta / 2), 5), round(math.cos(theta / 2), 5)] for _, _, theta in kept]
-    return {"position": ("vector3", when, where), "quaternion": ("quaternion", when, turns)}
+    changes = (places[1:] != places[:-1]).any(axis=1)
+    kept = np.append(True, changes) | np.append(changes, True)  # none while it stands, but when it began and ended that
+    chosen, places = chosen[kept], places[kept]
+    when = times[chosen].tolist()
+    turns = [[0.0, 0.0, round(math.sin(half), 5), round(math.cos(half), 5)] for half in (places[:, 2] / 2).tolist()]
+    where = [[round(x, 4), round(y, 4), 0.0] for x, y, _ in places.tolist()]
+    tracks = [_track("position", "vector3", when, where), _track("quaternion", "quaternion", when, turns)]
+    steps = np.stack([places[:-1, :2], places[1:, :2]], axis=1)
+    driven = (steps[:, 0] != steps[:, 1]).any(axis=1) & ~np.isin(chosen[1:], jumps)
+    if not driven.any():
+        return tracks, [], b""
+    mesh = ribbon(list(steps[driven]))
+    trail = [show("lab/trail", mesh, lit=False, color=int(TRAIL[1:], 16)), cast_no_shadow("lab/trail")]
+    return tracks, trail, pack(np.column_stack([when, 6 * np.append(0, np.cumsum(driven))]))
 
 
-def _trail(poses: np.ndarray, times: np.ndarray, jumps: np.ndarray, driven: float) -> tuple[list[bytes], bytes]:
-    """The whole trail, and how much of it is drawn when: times (s), each with a number of corners, six a step.
-
-    A mesh's extent is nothing that three.js animates, so the page itself sets it (js/scene_page.js).
-    """
-    chosen = thinned(poses, jumps, spacing=max(0.1, driven / MOST))
-    places = np.column_stack([poses["x"], poses["y"]])
-    drives = ((begin, end) for begin, end in pairwise(chosen) if end not in jumps)
-    steps = [(begin, end) for begin, end in drives if (places[begin] != places[end]).any()]
-    if not steps:
-        return [], b""
-    when, corners = [0.0], [0.0]
-    for step, (begin, end) in enumerate(steps):
-        for index, amount in ((begin, 6.0 * step), (end, 6.0 * (step + 1))):
-            if times[index] > when[-1]:
-                when.append(round(float(times[index]), 4))
-                corners.append(amount)
-    mesh = ribbon([places[[begin, end]] for begin, end in steps])
-    drawn = [show("lab/trail", mesh, lit=False, color=int(TRAIL[1:], 16)), cast_no_shadow("lab/trail")]
-    return drawn, pack(np.column_stack([when, corners]))
-
-
-def _flags(goals: list[Goal], begin: float, end: float) -> tuple[list[bytes], dict[str, Tracks]]:
+def _flags(goals: list[Goal], begin: float, end: float) -> tuple[list[bytes], dict[str, list[Track]]]:
     """A flag for each goal, to be seen from when it was sent until its answer came."""
     flags, appear = [], {}
-    ends = [math.inf if goal.ended is None else goal.ended for goal in goals]
-    for index, (goal, gone) in enumerate(zip(goals, ends, strict=True)):
+    for index, goal in enumerate(goals):
+        gone = math.inf if goal.ended is None else goal.ended
         if goal.sent >= end or gone <= begin:
             continue
         path = f"lab/goals/{index}"
         flags.append(show(f"{path}/mark", goal_mark(goal.x, goal.y, goal.theta)))
         flags.append(show(f"{path}/flag", goal_flag(goal.x, goal.y, reached=False)))
         keys = [(0.0, goal.sent <= begin), (goal.sent - begin, True), (gone - begin, False)]
-        kept = [(round(time, 4), seen) for time, seen in keys if time == 0 or 0 < time < end - begin]
-        appear[path] = {"visible": ("bool", [time for time, _ in kept], [seen for _, seen in kept])}
+        kept = [(time, seen) for time, seen in keys if time == 0 or 0 < time < end - begin]
+        appear[path] = [_track("visible", "bool", *zip(*kept, strict=True))]
     return flags, appear
-
-
-def _animation(tracks: dict[str, Tracks]) -> bytes:
-    """The command for all tracks; one frame a second, so that a frame's number is its time."""
-    animations = [
-        {
-            "path": f"/{path}",
-            "clip": {
-                "fps": 1,
-                "name": "default",
-                "tracks": [
-                    {
-                        "name": f".{name}",
-                        "type": kind,
-                        "keys": [{"time": time, "value": value} for time, value in zip(times, values, strict=True)],
-                    }
-                    for name, (kind, times, values) in named.items()
-                ],
-            },
-        }
-        for path, named in tracks.items()
-    ]
-    return packed("set_animation", "", animations=animations, options={"play": False, "repetitions": 1})
