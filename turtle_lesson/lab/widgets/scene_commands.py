@@ -178,8 +178,7 @@ def obstacles(these: Iterable[Obstacle]) -> list[bytes]:
             block = {"type": "CylinderGeometry", "height": high, "radialSegments": 50}
             block |= {"radiusTop": each.radius, "radiusBottom": each.radius}
             place @= np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
-        outline = scene_mesh.outline(each)
-        rim = np.column_stack([outline, np.full(len(outline), high + 0.003)])
+        rim = scene_mesh.lifted(scene_mesh.outline(each), high + 0.003)
         line = {"type": "LineBasicMaterial", "color": _number(scene_mesh.OBSTACLE_EDGE)}
         commands += [
             _show(f"{path}/block", block, {"type": "MeshLambertMaterial", "color": _number(scene_mesh.OBSTACLE)}),

@@ -46,7 +46,7 @@ def rgb(colour: str) -> tuple[float, float, float]:
 
 def joined(meshes: Iterable[Mesh]) -> Mesh:
     """Several meshes as one."""
-    listed = list(meshes) or [Mesh(np.zeros((0, 3, 3)), np.zeros((0, 3)))]
+    listed = list(meshes)
     return Mesh(np.concatenate([each.corners for each in listed]), np.concatenate([each.colours for each in listed]))
 
 
@@ -62,11 +62,15 @@ def polygon(points: ArrayLike, colour: str) -> Mesh:
     return triangles([[places[0], places[at], places[at + 1]] for at in range(1, len(places) - 1)], colour)
 
 
-def loft(rings: Sequence[ArrayLike], colour: str) -> Mesh:
+def lifted(flat: np.ndarray, height: float) -> np.ndarray:
+    """Points on the floor (n by 2) at a height: n by 3."""
+    return np.column_stack([flat, np.full(len(flat), height)])
+
+
+def loft(rings: ArrayLike, colour: str) -> Mesh:
     """The skin between rings of equally many points, from the lowest to the highest."""
     pieces = []
-    for below, above in pairwise(rings):
-        low, high = np.asarray(below, float), np.asarray(above, float)
+    for low, high in pairwise(np.asarray(rings, float)):
         low_next, high_next = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
         pieces += [np.stack([low, low_next, high_next], axis=1), np.stack([low, high_next, high], axis=1)]
     return triangles(np.concatenate(pieces), colour)
@@ -81,19 +85,15 @@ def ring(middle: Sequence[float], across: float, along: float, sides: int) -> np
 
 def prism(outline: ArrayLike, low: float, high: float, colour: str) -> Mesh:
     """A wall along an outline (n by 2, counter-clockwise) with a lid."""
-    flat = np.asarray(outline, float)
-    bottom, top = (np.column_stack([flat, np.full(len(flat), z)]) for z in (low, high))
+    bottom, top = (lifted(np.asarray(outline, float), height) for height in (low, high))
     return joined([loft([bottom, top], colour), polygon(top, colour)])
 
 
 def ellipsoid(radii: Sequence[float], colour: str, sides: int = 8, levels: int = 5) -> Mesh:
     """An ellipsoid about the origin, of few faces."""
     angles = np.linspace(-math.pi / 2, math.pi / 2, levels + 1)
-    rings = [
-        ring((0, 0, radii[2] * math.sin(each)), radii[0] * math.cos(each), radii[1] * math.cos(each), sides)
-        for each in angles
-    ]
-    return loft(rings, colour)
+    unit = [ring((0, 0, math.sin(each)), math.cos(each), math.cos(each), sides) for each in angles]
+    return loft(np.array(unit) * radii, colour)
 
 
 def placed(x: float = 0.0, y: float = 0.0, z: float = 0.0, turn: float = 0.0, size: float = 1.0) -> np.ndarray:
@@ -195,14 +195,10 @@ def _shrunk(points: np.ndarray, by: float = 0.9) -> np.ndarray:
 def _head() -> Mesh:
     x, _, width, height, _ = HEAD
     skull = ellipsoid((width / 2, height / 2, 0.098), SKIN, sides=10, levels=6).moved(placed(x + 0.01, 0, 0.185))
-    neck = loft([_collar(0.24, 0.075, 0.12), _collar(0.37, 0.065, 0.165)], SKIN)
+    collars = ((0.24, 0.075, 0.12), (0.37, 0.065, 0.165))  # upright rings: how far in front, radius, height
+    neck = loft([ring((0, height, front), radius, radius, 8)[:, [2, 0, 1]] for front, radius, height in collars], SKIN)
     eye = ellipsoid((0.026, 0.022, 0.028), OUTLINE, sides=6, levels=4).moved(placed(x + 0.075, 0.073, 0.215))
     return joined([skull, neck, eye, eye.mirrored()])
-
-
-def _collar(x: float, radius: float, height: float) -> np.ndarray:
-    turns = np.arange(8) * math.tau / 8
-    return np.column_stack([np.full(8, x), radius * np.cos(turns), height + radius * np.sin(turns)])
 
 
 def _tail() -> Mesh:
@@ -262,41 +258,31 @@ def outline(obstacle: Obstacle) -> np.ndarray:
     return (flat @ matrix[:3, :3].T + matrix[:3, 3])[:, :2]
 
 
-def ribbon(pieces: Sequence[np.ndarray], width: float = 0.07, height: float = 0.012) -> Mesh:
-    """Lines on the floor, each through points (n by 2) in their order: two triangles a step."""
-    quads = [_quads(np.asarray(piece, float), width / 2) for piece in pieces if len(piece) > 1]
-    if not quads:
-        return joined([])
-    flat = np.concatenate(quads)
-    corners = np.concatenate([flat, np.full((*flat.shape[:2], 1), height)], axis=2)
-    return triangles(corners[:, [0, 1, 2, 0, 2, 3]], TRAIL)
+def ribbon(pieces: Iterable[np.ndarray], width: float = 0.07, height: float = 0.012) -> Mesh:
+    """Lines on the floor, each through points (n by 2) in their order: two triangles a step.
 
-
-def _quads(points: np.ndarray, half: float) -> np.ndarray:
-    """A quad for each step, a little longer than the step, so that no gap opens at a corner."""
-    steps = np.diff(points, axis=0)
-    lengths = np.hypot(*steps.T)
-    steps, begins = steps[lengths > 0], points[:-1][lengths > 0]
-    ends = begins + steps
-    along = half * steps / lengths[lengths > 0][:, None]
-    across = np.column_stack([-along[:, 1], along[:, 0]])
+    A step is a little longer than from point to point, so that no gap opens at a corner.
+    """
+    steps = np.concatenate([np.empty((0, 2, 2)), *(np.stack([piece[:-1], piece[1:]], axis=1) for piece in pieces)])
+    begins, ends = np.moveaxis(steps[(steps[:, 0] != steps[:, 1]).any(axis=1)], 1, 0)
+    along = width / 2 * (ends - begins) / np.hypot(*(ends - begins).T)[:, None]
+    across = along[:, ::-1] * (-1, 1)
     back, front = begins - 0.6 * along, ends + 0.6 * along
-    return np.stack([back - across, front - across, front + across, back + across], axis=1)
+    corners = [lifted(flat, height) for flat in (back - across, front - across, front + across, back + across)]
+    return triangles(np.stack(corners, axis=1)[:, [0, 1, 2, 0, 2, 3]], TRAIL)
 
 
 def fan(beams: Beams, x: float, y: float, theta: float) -> tuple[Mesh, Mesh]:
     """What the laser saw from a place: the space that is free, as far as there is a floor, and a mark for each hit."""
     reach = reach_of(beams)
     ends = np.where(beams.sees, np.minimum(beams.ranges, reach), reach)
-    turns = beams.angles + theta
-    along, up = np.cos(turns), np.sin(turns)
+    along, up = np.cos(beams.angles + theta), np.sin(beams.angles + theta)
     with np.errstate(divide="ignore", invalid="ignore"):  # how far each beam goes before it ends, or leaves the world
         to_side = np.maximum(-x / along, (WORLD - x) / along)
         to_end = np.maximum(-y / up, (WORLD - y) / up)
     far = np.maximum(np.fmin(np.fmin(to_side, to_end), ends), 0.0)
-    flat = np.column_stack([x + far * along, y + far * up])
-    rim = np.column_stack([flat, np.full(len(flat), BEAM_HEIGHT)])
-    middle = np.tile([x, y, BEAM_HEIGHT], (max(len(rim) - 1, 0), 1))
+    rim = lifted(np.column_stack([x + far * along, y + far * up]), BEAM_HEIGHT)
+    middle = np.full_like(rim[1:], (x, y, BEAM_HEIGHT))
     free = triangles(np.stack([middle, rim[:-1], rim[1:]], axis=1), FREE)
     return free, _marks(beams, ends).moved(placed(x, y, 0.0, theta))
 
@@ -305,39 +291,31 @@ def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2)
     """An upright band along what the beams hit: joined where neighbours hit the same thing, a short piece elsewhere."""
     half = abs(beams.angles[1] - beams.angles[0]) / 2 if len(beams) > 1 else 0.01
     seen = np.flatnonzero(beams.sees)
-    if not len(seen):
-        return joined([])
-    after = np.append(seen[1:], seen[-1])
+    after = np.append(seen[1:], seen[-1:])
     alike = np.abs(ends[after] - ends[seen]) < SAME * np.maximum(1.0, ends[seen])
     goes_on = (after == seen + 1) & alike
-    first_far, turn = ends[seen] - 0.02, beams.angles[seen]
-    first_turn = np.where(goes_on, turn, turn - half)
-    last_far = np.where(goes_on, ends[after] - 0.02, first_far)
-    last_turn = np.where(goes_on, beams.angles[after], turn + half)
-    right = np.column_stack([first_far * np.cos(first_turn), first_far * np.sin(first_turn)])
-    left = np.column_stack([last_far * np.cos(last_turn), last_far * np.sin(last_turn)])
+    far, turn = ends[seen] - 0.02, beams.angles[seen]
+    right = _polar(far, np.where(goes_on, turn, turn - half))
+    left = _polar(np.where(goes_on, ends[after] - 0.02, far), np.where(goes_on, beams.angles[after], turn + half))
     ends_up = [(right, low), (left, low), (left, high), (right, low), (left, high), (right, high)]
-    corners = [np.column_stack([flat, np.full(len(flat), height)]) for flat, height in ends_up]
-    return triangles(np.stack(corners, axis=1), HIT)
+    return triangles(np.stack([lifted(flat, height) for flat, height in ends_up], axis=1), HIT)
+
+
+def _polar(far: np.ndarray, turns: np.ndarray) -> np.ndarray:
+    return np.column_stack([far * np.cos(turns), far * np.sin(turns)])
 
 
 def goal_mark(x: float, y: float, theta: float) -> Mesh:
     """On the floor, the ring within which a goal counts as reached, and a pointer for the heading."""
     inner, outer = (ring((0, 0, 0.018), radius, radius, 32) for radius in (TOLERANCE - 0.035, TOLERANCE))
     arrow = [(TOLERANCE + 0.05, -0.13, 0.018), (TOLERANCE + 0.3, 0, 0.018), (TOLERANCE + 0.05, 0.13, 0.018)]
-    return joined([loft([outer, inner], drawing.VERMILLION), polygon(arrow, drawing.VERMILLION)]).moved(
-        placed(x, y, 0.0, theta)
-    )
+    mark = joined([loft([outer, inner], drawing.VERMILLION), polygon(arrow, drawing.VERMILLION)])
+    return mark.moved(placed(x, y, 0.0, theta))
 
 
 def goal_flag(x: float, y: float, reached: bool) -> Mesh:
     """The flag in the middle of the ring; beside it when the turtle stands there."""
     aside = (0.6 if y < WORLD - 0.8 else -0.6) if reached else 0.0
     foot, top = ring((0, 0, 0), 0.022, 0.022, 8), ring((0, 0, 1.12), 0.018, 0.018, 8)
-    return joined(
-        [
-            loft([foot, top], POLE),
-            polygon(top, POLE),
-            polygon([(0, 0, 0.76), (0.55, 0, 0.93), (0, 0, 1.1)], drawing.VERMILLION),
-        ]
-    ).moved(placed(x, y + aside))
+    cloth = polygon([(0, 0, 0.76), (0.55, 0, 0.93), (0, 0, 1.1)], drawing.VERMILLION)
+    return joined([loft([foot, top], POLE), polygon(top, POLE), cloth]).moved(placed(x, y + aside))
