@@ -95,7 +95,7 @@ class Dashboard(GoalPad):
 
     def __init__(self, backend: Link) -> None:
         self._status_sent = -1  # stamp, ns
-        self._heard: dict[str, tuple[Channel, Table, str]] = {}  # with the reason why a topic cannot be heard
+        self._heard: dict[str, tuple[Channel, Table]] = {}
         self._rosout: Subscription | None = None
         self._log_waiting: list[tuple[int, str, str, str]] = []
         self._log_count = self._log_newest = self._log_read_until = 0
@@ -211,18 +211,20 @@ class Dashboard(GoalPad):
 
     def _show_rates(self) -> None:
         recorder = self.backend.recorder
-        known = [
-            (recorder.pose_topic, recorder.poses, 62.5, ""),
-            (STATUS_TOPIC, recorder.statuses, 10.0, ""),
-            (SCAN_TOPIC, recorder.scans, 5.0, ""),
-            (recorder.command_topic, recorder.commands, 10.0, ""),
-        ]
-        others = [(topic, table, 0.0, trouble) for topic, (_, table, trouble) in self._heard.items()]
+        others = {
+            topic: (table, "" if end.listens else end.why_silent()) for topic, (end, table) in self._heard.items()
+        }
         if len(recorder.worlds):
-            others.append((OBSTACLE_TOPIC, recorder.worlds, 0.0, ""))
-        self.rates = [self._rate(*row) for row in (*known, *sorted(others, key=itemgetter(0)))]
+            others[OBSTACLE_TOPIC] = recorder.worlds, ""
+        self.rates = [
+            self._rate(recorder.pose_topic, recorder.poses, 62.5),
+            self._rate(STATUS_TOPIC, recorder.statuses, 10.0),
+            self._rate(SCAN_TOPIC, recorder.scans, 5.0),
+            self._rate(recorder.command_topic, recorder.commands, 10.0),
+            *(self._rate(topic, table, 0.0, trouble) for topic, (table, trouble) in sorted(others.items())),
+        ]
 
-    def _rate(self, topic: str, table: Table, expected: float, trouble: str) -> dict[str, Any]:
+    def _rate(self, topic: str, table: Table, expected: float, trouble: str = "") -> dict[str, Any]:
         stamps = table.newest(MOST_MESSAGES)["stamp"]
         hertz = frequency(stamps, self._now(), PAUSE if expected else RATE_WINDOW)
         state = verdict(hertz, expected)
@@ -252,12 +254,12 @@ class Dashboard(GoalPad):
             if topic not in self._heard:
                 self._heard[topic] = self._listen(topic, type_name)
 
-    def _listen(self, topic: str, type_name: str) -> tuple[Channel, Table, str]:
+    def _listen(self, topic: str, type_name: str) -> tuple[Channel, Table]:
         table = Table(limit=MOST_MESSAGES)
         raw = self.backend.clock is None  # on a robot, where it may be images: never made into Python objects
         channel = Channel(self.backend.node, topic, type_name, lambda _: table.listener(), "", raw=raw)
         channel.follow()
-        return channel, table, "" if channel.listens else channel.why_silent()
+        return channel, table
 
     # -- log -----------------------------------------------------------------------------------------------------------
 

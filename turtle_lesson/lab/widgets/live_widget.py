@@ -30,15 +30,8 @@ A view gives one every 20 s, and a browser may hold up those of a hidden window 
 
 FOLDER = Path(__file__).with_name("js")
 
-_LAST = {
-    "_trait_values",
-    "_trait_notifiers",
-    "_trait_validators",
-    "_cross_validation_lock",
-    "is_made",
-    "_last_words",
-}
-"""The attributes that a closed widget still needs; the first four are those of traitlets."""
+_LAST = vars(traitlets.HasTraits()).keys() | {"is_made", "_last_words"}
+"""The attributes that a closed widget still needs: those of traitlets, and two of its own."""
 
 _ended: list[LiveWidget] = []
 
@@ -49,15 +42,9 @@ def pack(numbers: ArrayLike) -> bytes:
 
 
 @cache
-def script(*names: str) -> str:
-    """The JavaScript of a widget: its files one after another, as one module."""
-    return "\n".join((FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in names)
-
-
-@cache
-def styles(*names: str) -> str:
-    """The style sheets of a widget."""
-    return "\n".join((FOLDER / f"{name}.css").read_text(encoding="utf-8") for name in names)
+def source(kind: str, *names: str) -> str:
+    """The files of a widget one after another: its scripts ("js"), as one module, or its style sheets ("css")."""
+    return "\n".join((FOLDER / f"{name}.{kind}").read_text(encoding="utf-8") for name in names)
 
 
 class LiveWidget(anywidget.AnyWidget):
@@ -90,7 +77,7 @@ class LiveWidget(anywidget.AnyWidget):
 
     def __init__(self, backend: Link, **traits: Any) -> None:
         self.backend = backend
-        self._esm, self._css = script(*self.SCRIPTS), styles(*self.STYLES)
+        self._esm, self._css = source("js", *self.SCRIPTS), source("css", *self.STYLES)
         self._paces: dict[str, float] = {}
         self._shown: dict[str, object] = {}
         self._views: dict[str, float] = {}  # when each gave its last sign of life

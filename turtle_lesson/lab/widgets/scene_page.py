@@ -15,7 +15,7 @@ import numpy as np
 from ..path import distance_driven, find_jumps
 from ..words import number, point
 from . import scene_commands
-from .live_widget import FOLDER, pack, script, styles
+from .live_widget import pack, source
 from .scene_commands import cast_no_shadow, packed, show
 from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
 
@@ -29,27 +29,17 @@ PARTS = ("stage", "trail", "tip", "scan", "obstacles", "goal")
 HEIGHT = 560
 """Pixels in a notebook."""
 
-# The page may run what is written in it and show pictures that it made, and nothing else: no address is ever asked.
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
-)
-
 
 class ScenePage:
     """A page of HTML, and the same in words. `html` is the page, `text` says what it shows."""
 
     def __init__(self, title: str, text: str, state: dict[str, Any]) -> None:
         self.text = text
-        self.html = (
-            (FOLDER / "scene_page.html")
-            .read_text(encoding="utf-8")
-            .format(
-                policy=POLICY,
-                title=html.escape(title),
-                css=styles("base", "scene", "scene_page"),
-                state=json.dumps(state, sort_keys=True, default=_written).replace("<", "\\u003c"),
-                script=script(*VIEW_SCRIPTS, "scene_page"),
-            )
+        self.html = source("html", "scene_page").format(
+            title=html.escape(title),
+            css=source("css", "base", "scene", "scene_page"),
+            state=json.dumps(state, sort_keys=True, default=_written).replace("<", "\\u003c"),
+            script=source("js", *VIEW_SCRIPTS, "scene_page"),
         )
 
     def save(self, path: str | Path) -> Path:
