@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -45,8 +45,7 @@ def plot_timeline(
     Raises TypeError or ValueError for what is neither a topic nor a node, with the names that are perhaps meant.
     """
     window = window_of(trace.now, since, until)
-    topics = [name for name, _ in node.get_topic_names_and_types()]
-    lanes = lanes_of(trace, rows, topics, node_names(node), window)
+    lanes = _lanes_of(trace, node, rows, window)
     if not lanes:
         return Picture("No callback has run yet. Start a node, and let robot time pass: lesson.run(1.0).")
     if window.begin == window.end:
@@ -168,34 +167,24 @@ def window_of(now: int, since: float | None, until: float | None) -> Window:
     return Window(begin, end)
 
 
-def lanes_of(
-    trace: Trace, names: Sequence[str], known_topics: Iterable[str], alive: Iterable[str], window: Window
-) -> list[Lane]:
-    """The lanes for some names of topics, nodes and callbacks ("/navigator.on_pose"); for none, of all nodes.
-
-    `known_topics` and `alive` (nodes) are in the graph now.
-
-    Raises TypeError for what is no name, ValueError for one that is unknown, with the names that are perhaps meant.
-    """
-    nodes = list(dict.fromkeys(callback.node for callback in trace.callbacks))
-    topics = trace.not_noted.union(topic for topic, _ in trace.published) | {
-        each for each in known_topics if not is_hidden(each) and each not in EVERYWHERE
-    }
+def _lanes_of(trace: Trace, node: Node, names: Sequence[str], window: Window) -> list[Lane]:
+    """The lanes for some names of topics, nodes and callbacks ("/navigator.on_pose"); for none, of all nodes."""
+    nodes, here = list(dict.fromkeys(callback.node for callback in trace.callbacks)), node_names(node)
+    topics = {name for name, _ in node.get_topic_names_and_types() if not is_hidden(name)} - EVERYWHERE
+    topics |= trace.not_noted.union(topic for topic, _ in trace.published)
     lanes: list[Lane] = []
-    here = set(alive)
     for name in names or nodes:
         if not isinstance(name, str) or not name.strip("/ "):
             rows = 'the name of a topic or of a node, such as "/robot/status" or "/navigator"'
             raise TypeError(f"a row is {rows}, got {name!r}")
         full = f"/{name.strip().lstrip('/')}"
-        node, _, function = full.partition(".")
-        if node in nodes:
-            lanes += _callback_lanes(trace, node, function, window, node in here)
+        of_node, _, function = full.partition(".")
+        if of_node in nodes:
+            lanes += _callback_lanes(trace, of_node, function, window, of_node in here)
         elif full in topics:
             lanes.append(_topic_lane(trace, full, window))
         else:
-            visible = sorted(each for each in topics if not is_hidden(each))
-            hint = suggestion(full, [*nodes, *visible])
+            hint = suggestion(full, [*nodes, *sorted(each for each in topics if not is_hidden(each))])
             raise ValueError(f"{full} is neither a topic nor a node that has run here. {hint}")
     return lanes
 
