@@ -39,7 +39,8 @@ class ProgressFile:
 
     def note(self, result: CheckResult) -> int:
         """Keep what a check has earned, if it is more than before; returns how often it has failed in a row."""
-        before = self.points().get(result.name, 0), self._failures.get(result.name, 0)
+        self._read()
+        before = self._points.get(result.name, 0), self._failures.get(result.name, 0)
         self._points[result.name] = max(result.earned, before[0])
         self._failures[result.name] = failures = 0 if result.passed else before[1] + 1
         if (self._points[result.name], failures) != before:
@@ -48,26 +49,27 @@ class ProgressFile:
 
     def points(self) -> dict[str, int]:
         """Earned points by the name of the check."""
-        points, failures = self._read()
-        for name, each in points.items():
-            self._points[name] = max(each, self._points.get(name, 0))
-        self._failures.update(failures)
+        self._read()
         return {name: each for name, each in self._points.items() if each}
 
     def keep(self, points: dict[str, int]) -> None:
         """Take over points that were earned elsewhere, where they are more than here."""
-        here = self.points()
-        self._points |= {name: max(each, here.get(name, 0)) for name, each in points.items()}
+        self._read()
+        self._take(points)
         self._write()
 
-    def _read(self) -> tuple[dict[str, int], dict[str, int]]:
-        """The points, and the failures in a row, that the file holds."""
+    def _take(self, points: dict[str, int]) -> None:
+        self._points |= {name: max(each, self._points.get(name, 0)) for name, each in points.items()}
+
+    def _read(self) -> None:
+        """Take over the points, and the failures in a row, that the file holds."""
         file = self.path
         if file is None or not file.is_file():
-            return {}, {}
+            return
         try:
             content = json.loads(file.read_text(encoding="utf-8"))
-            return _numbers_in(content, "points"), _numbers_in({"failures": {}, **content}, "failures")
+            self._take(_numbers_in(content, "points"))
+            self._failures |= _numbers_in({"failures": {}, **content}, "failures")
         except OSError as error:
             self.remark = f"{file.name} cannot be read ({error.strerror}); {KERNEL_ONLY}"
             self.path = None
@@ -81,7 +83,6 @@ class ProgressFile:
             else:
                 self.remark = f"{file.name} was damaged. It is kept as {aside.name}, and a new one was started."
                 self._write()
-        return {}, {}
 
     def _write(self) -> None:
         if self.path is None:

@@ -23,6 +23,7 @@ from ..recorder import Channel
 from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status_and_scan import Beams, plot_status, read_beams
 from ..words import count, listed, number
+from .goal_client import SERVICE
 from .goal_pad import GoalPad
 from .live_widget import pack
 
@@ -44,8 +45,7 @@ STATUS_TIP = 30
 """All are sent again once so many are new."""
 
 NODES = ("/turtlesim", "/navigator", "/status_monitor", "/obstacle_detector")
-SERVICES = ("/navigate_to",)
-"""What the system needs."""
+"""What the system needs, beside the navigator's service."""
 
 KEPT = 500
 """Lines of the log that are kept, about."""
@@ -294,9 +294,8 @@ def look(node: Node) -> list[dict[str, Any]]:
     found = Counter(name for name in node_names(node) if not is_hidden(name))
     nodes = [_light(name, "node", found[name]) for name in NODES]
     extra = [{**_light(name, "node", found[name]), "state": "extra"} for name in sorted(found) if name not in NODES]
-    offering = {service: [name for name, _ in servers(node, service)] for service in SERVICES}
-    services = [_light(name, "service", len(nodes), listed(nodes)) for name, nodes in offering.items()]
-    return [*nodes, *services, *extra]
+    offering = [name for name, _ in servers(node, SERVICE)]
+    return [*nodes, _light(SERVICE, "service", len(offering), listed(offering)), *extra]
 
 
 def _light(name: str, kind: str, amount: int, by: str = "") -> dict[str, Any]:
