@@ -16,6 +16,7 @@ import logging
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -99,15 +100,8 @@ def _matplotlib() -> Any:
         # matplotlib reads 7,600 docstrings of its own as it starts, most of them often: 13 % of its import
         inspect.cleandoc = cache(cleandoc)
         try:
-            import matplotlib
             import matplotlib.backends.backend_agg
-            import matplotlib.collections
-            import matplotlib.figure
-            import matplotlib.font_manager
-            import matplotlib.lines
-            import matplotlib.patches
-            import matplotlib.ticker
-            import PIL.Image  # noqa: F401
+            import matplotlib.figure  # which imports all the rest
         finally:
             inspect.cleandoc = cleandoc
     return matplotlib
@@ -146,6 +140,7 @@ SHARPNESS = 2
 """Pixels drawn for each pixel shown, so that a picture is sharp on a fine screen."""
 
 
+@dataclass(eq=False, repr=False)
 class Picture:
     """A figure and its exact text: a notebook shows the figure, print and a screen reader give the text.
 
@@ -153,9 +148,8 @@ class Picture:
     the text says what is missing and what to try. `picture.figure.savefig("path.svg")` writes it to a file.
     """
 
-    def __init__(self, text: str, figure: Figure | None = None) -> None:
-        self.text = text
-        self.figure = figure
+    text: str
+    figure: Figure | None = None
 
     def __repr__(self) -> str:
         return self.text
@@ -222,6 +216,7 @@ EYES = (0.455, 0.058, 0.021)
 
 def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.95) -> None:
     """Draw the turtle with its middle at (x, y), looking along `theta` (radians); units of the axes."""
+    from matplotlib.collections import LineCollection
     from matplotlib.patches import Circle, Ellipse, Polygon
     from matplotlib.transforms import Affine2D
 
@@ -240,27 +235,19 @@ def draw_turtle(axes: Axes, x: float, y: float, theta: float, length: float = 0.
         add(Circle((EYES[0], side * EYES[1]), EYES[2]), OUTLINE, 3, line=0.0)
     add(_ellipse(Ellipse, BODY), RIM, 4)
     add(_ellipse(Ellipse, BACK), SHELL, 5, edge="none")
-    _draw_scutes(axes, place, 5.06)
-
-
-def _ellipse(kind: Any, shape: tuple[float, ...], side: int = 1) -> Any:
-    x, y, width, height, turn = shape
-    return kind((x, side * y), width, height, angle=side * turn)
-
-
-def _draw_scutes(axes: Axes, place: Any, zorder: float) -> None:
-    """The plates of the shell: a hexagon along the back, and a line from each of its corners to the rim."""
-    from matplotlib.collections import LineCollection
-
+    # the plates of the shell: a hexagon along the back, and a line from each of its corners to the rim
     middle, width, height = BACK[0], BACK[2] / 2, BACK[3] / 2
     around = [(math.cos(math.radians(turn)), math.sin(math.radians(turn))) for turn in range(0, 360, 60)]
     inner = [(middle + 0.50 * width * across, 0.52 * height * up) for across, up in around]
     outer = [(middle + width * across, height * up) for across, up in around]
     lines = [[*inner, inner[0]], *zip(inner, outer, strict=True)]
-    axes.add_collection(
-        LineCollection(lines, colors="#d8f3e6", linewidths=0.8, transform=place, zorder=zorder, capstyle="round"),
-        autolim=False,
-    )
+    look: dict[str, Any] = {"colors": "#d8f3e6", "linewidths": 0.8, "capstyle": "round"}
+    axes.add_collection(LineCollection(lines, transform=place, zorder=5.06, **look), autolim=False)
+
+
+def _ellipse(kind: Any, shape: tuple[float, ...], side: int = 1) -> Any:
+    x, y, width, height, turn = shape
+    return kind((x, side * y), width, height, angle=side * turn)
 
 
 def draw_obstacles(axes: Axes, obstacles: Iterable[Obstacle]) -> None:

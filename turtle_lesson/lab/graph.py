@@ -112,6 +112,7 @@ def ends_of(nodes: list[NodeView], *uses: str) -> Ends:
     return {name: sorted(types) for name, types in sorted(found.items())}
 
 
+@dataclass(eq=False, repr=False)
 class GraphPicture:
     """A diagram, and the same in words.
 
@@ -119,10 +120,9 @@ class GraphPicture:
     your own ("" when there is nothing to show).
     """
 
-    def __init__(self, text: str, mermaid: str = "", svg: str = "") -> None:
-        self.text = text
-        self.mermaid = mermaid
-        self.svg = svg
+    text: str
+    mermaid: str = ""
+    svg: str = ""
 
     def __repr__(self) -> str:
         return self.text

@@ -33,7 +33,6 @@ class Choice:
     """One of several texts."""
 
     choices: tuple[str, ...]
-    name: str = "choice"
 
     def read(self, value: Any) -> str:
         """One of the texts, letter by letter."""
@@ -55,7 +54,6 @@ class Number:
     """A number with a unit."""
 
     unit: str
-    name: str = "number"
 
     def read(self, value: Any) -> float:
         """A finite number; what was typed may have its unit, a decimal comma and a true minus sign."""
@@ -89,8 +87,6 @@ class Number:
 @dataclass(frozen=True)
 class Point:
     """A place on the turtle's map, m."""
-
-    name: str = "point"
 
     def read(self, value: Any) -> tuple[float, float]:
         """Two finite numbers, the first two of a longer tuple, or what has x and y."""

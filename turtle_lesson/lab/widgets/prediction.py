@@ -44,7 +44,7 @@ class PredictionWidget(LiveWidget):
         super().__init__(
             backend,
             question=question.question,
-            kind=kind.name,
+            kind=type(kind).__name__.lower(),
             choices=list(getattr(kind, "choices", ())),
             unit=getattr(kind, "unit", ""),
         )
