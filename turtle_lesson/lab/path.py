@@ -10,7 +10,7 @@ import numpy as np
 
 from . import drawing
 from .drawing import Picture, draw_obstacles, draw_turtle
-from .recording import WORLD, Recording, Table
+from .recording import COMMAND_TOPIC, POSE_TOPIC, WORLD, Recording, Table
 from .words import angle, count, number, point, turned
 
 if TYPE_CHECKING:
@@ -158,7 +158,7 @@ def plot_path(
         nothing = f"{count(broken, 'pose')} heard in that time, all with nan, which is not a number."
         return Picture(f"No path to draw: {nothing}")
     if not len(recording.poses):
-        return Picture(f"No path yet. {recording.why_silent(recording.pose_topic)}")
+        return Picture(f"No path yet. {recording.why_silent(POSE_TOPIC)}")
     if not len(poses):
         return Picture(f"No path in these seconds: poses were heard from {recording.span(recording.poses)}.")
     commands = len(recording.window(recording.commands, since, until))
@@ -173,7 +173,7 @@ def plot_path(
         f"It was put elsewhere {count(len(jumps), 'time')} (teleport or reset)." if len(jumps) else "",
         f"Left out: {count(broken, 'pose')} with nan, which is not a number." if broken else "",
         f"It touches the {' and the '.join(walls)} wall." if walls else "",
-        f"{count(commands, 'command').capitalize()} on {recording.command_topic} in that time.",
+        f"{count(commands, 'command').capitalize()} on {COMMAND_TOPIC} in that time.",
         *(_to_goal(each, poses[-1]) for each in goals),
         f"{count(len(places), 'obstacle').capitalize()} in the world: {', '.join(places)}." if places else "",
     ]
@@ -185,7 +185,7 @@ def plot_path(
 def _journey(recording: Recording, poses: np.ndarray, driven: float) -> str:
     first, last = poses[0], poses[-1]
     begin, end = (number(recording.seconds(pose["stamp"])) for pose in (first, last))
-    title = f"Path of {recording.turtle} from {begin} s to {end} s of robot time"
+    title = f"Path of turtle1 from {begin} s to {end} s of robot time"
     here = f"{point(last['x'], last['y'])} m facing {angle(last['theta'])}"
     there = f"{point(first['x'], first['y'])} m facing {angle(first['theta'])}"
     away = math.hypot(last["x"] - first["x"], last["y"] - first["y"])
@@ -209,7 +209,7 @@ def _draw(recording: Recording, poses: np.ndarray, jumps: np.ndarray, driven: fl
     figure = drawing.card(5.3, 5.6)
     begin, end = (number(recording.seconds(pose["stamp"]), 1) for pose in (poses[0], poses[-1]))
     subtitle = f"{begin} s to {end} s of robot time  ·  {number(driven)} m driven"
-    drawing.heading(figure, f"Path of {recording.turtle}", subtitle)
+    drawing.heading(figure, "Path of turtle1", subtitle)
     axes = drawing.axes_at(figure, 0.55, 0.5, 4.5, 4.5)
     axes.set(xlim=(0, WORLD), ylim=(0, WORLD), aspect="equal", xlabel="x in metres", ylabel="y in metres")
     for axis in (axes.xaxis, axes.yaxis):

@@ -24,8 +24,10 @@ from rclpy.time import Time
 from ..turtlesim.obstacles import WORLDS, Box, Circle, Obstacle, to_marker_array
 from .graph import others, owner
 from .recording import (
+    COMMAND_TOPIC,
     NANOSECONDS,
     OBSTACLE_TOPIC,
+    POSE_TOPIC,
     SCAN_TOPIC,
     STATUS_TOPIC,
     STATUS_TYPE,
@@ -98,7 +100,7 @@ class Recorder(Recording):
 
     def place(self) -> tuple[float, float, float] | None:
         """Where the turtle is, x, y (m) and theta (rad): turtlesim's middle until a pose was heard, None without it."""
-        middle = (WORLD / 2, WORLD / 2, 0.0) if self.node.count_publishers(self.pose_topic) else None
+        middle = (WORLD / 2, WORLD / 2, 0.0) if self.node.count_publishers(POSE_TOPIC) else None
         return self.pose() or middle
 
     def why_silent(self, topic: str) -> str:
@@ -117,8 +119,8 @@ class Recorder(Recording):
         simulator = f"Is the simulator running? Try {start}"
         channel = partial(Channel, node, patience=patience)
         channels = (
-            channel(self.pose_topic, pose, lambda _: poses, simulator),
-            channel(self.command_topic, twist, lambda _: commands, f"Try {launch} navigator", driven=True),
+            channel(POSE_TOPIC, pose, lambda _: poses, simulator),
+            channel(COMMAND_TOPIC, twist, lambda _: commands, f"Try {launch} navigator", driven=True),
             channel(STATUS_TOPIC, STATUS_TYPE, self._status_listener, f"Try {launch} status_monitor"),
             channel(SCAN_TOPIC, scan, lambda _: self._hear_scan, f"Try {launch} obstacle_detector"),
             channel(OBSTACLE_TOPIC, markers, lambda _: self._hear_markers, simulator, latched=True),

@@ -120,6 +120,8 @@ def _reader(paths: tuple[str, ...]) -> Callable[[Any], tuple[float, ...]]:
 
 NANOSECONDS = 1_000_000_000
 
+POSE_TOPIC = "/turtle1/pose"
+COMMAND_TOPIC = "/turtle1/cmd_vel"
 STATUS_TOPIC = "/robot/status"
 STATUS_TYPE = "robot_controller/msg/TurtleStatus"
 SCAN_TOPIC = "/obstacles"
@@ -130,33 +132,22 @@ UNDER_WAY = 1_000_000
 
 
 class Recording:
-    """The newest messages about one turtle, in the order in which they came.
+    """The newest messages about turtle1, in the order in which they came.
 
-    `origin` (ns) is the moment that plots call 0 s. Tables keep `limit` rows each. `last_scan` is the newest
+    `origin` (ns) is the moment that plots call 0 s. `last_scan` is the newest
     sensor_msgs/msg/LaserScan, `obstacles` what stands in the world now, `goals` what widgets have sent, the oldest first.
     """
 
-    def __init__(self, *, turtle: str = "turtle1", origin: int = 0, limit: int = LIMIT) -> None:
-        self.turtle = turtle
+    def __init__(self, *, origin: int = 0) -> None:
         self.origin = origin
-        self.poses = Table("x", "y", "theta", "speed", limit=limit)
-        self.commands = Table("forward", "sideways", "turn", limit=limit)
-        self.statuses = Table("x", "y", "theta", "vel_x", "vel_y", "battery", limit=limit)
-        self.scans = Table(limit=limit)
-        self.worlds = Table(limit=limit)
+        self.poses = Table("x", "y", "theta", "speed")
+        self.commands = Table("forward", "sideways", "turn")
+        self.statuses = Table("x", "y", "theta", "vel_x", "vel_y", "battery")
+        self.scans = Table()
+        self.worlds = Table()
         self.last_scan: Any = None
         self.obstacles: dict[tuple[str, int], Obstacle] = {}
         self.goals: list[Goal] = []
-
-    @property
-    def pose_topic(self) -> str:
-        """The topic that tells where the turtle is."""
-        return f"/{self.turtle}/pose"
-
-    @property
-    def command_topic(self) -> str:
-        """The topic that tells the turtle how to move."""
-        return f"/{self.turtle}/cmd_vel"
 
     def pose(self, until: int | None = None) -> tuple[float, float, float] | None:
         """The newest pose, x, y (m) and theta (rad), of those not later than `until` (ns); None where none was heard."""

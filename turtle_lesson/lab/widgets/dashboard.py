@@ -20,7 +20,7 @@ from ..drawing import SHARPNESS, Picture
 from ..graph import EVERYWHERE, node_names, servers
 from ..path import plot_path
 from ..recorder import Channel
-from ..recording import NANOSECONDS, OBSTACLE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
+from ..recording import COMMAND_TOPIC, NANOSECONDS, OBSTACLE_TOPIC, POSE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status_and_scan import Beams, plot_status, read_beams
 from ..words import count, listed, number
 from .goal_client import SERVICE
@@ -217,10 +217,10 @@ class Dashboard(GoalPad):
         if len(recorder.worlds):
             others[OBSTACLE_TOPIC] = recorder.worlds, ""
         self.rates = [
-            self._rate(recorder.pose_topic, recorder.poses, 62.5),
+            self._rate(POSE_TOPIC, recorder.poses, 62.5),
             self._rate(STATUS_TOPIC, recorder.statuses, 10.0),
             self._rate(SCAN_TOPIC, recorder.scans, 5.0),
-            self._rate(recorder.command_topic, recorder.commands, 10.0),
+            self._rate(COMMAND_TOPIC, recorder.commands, 10.0),
             *(self._rate(topic, table, 0.0, trouble) for topic, (table, trouble) in sorted(others.items())),
         ]
 
@@ -230,7 +230,7 @@ class Dashboard(GoalPad):
         state = verdict(hertz, expected)
         if not expected:
             state = "not heard" if trouble else "heard" if hertz else "quiet"
-        elif state == "silent" and topic == self.backend.recorder.command_topic:
+        elif state == "silent" and topic == COMMAND_TOPIC:
             state = "at rest"  # no goal is driven to, so no command is due
         elif state == "silent" and self.backend.now < PAUSE:
             state = "just begun"
@@ -239,8 +239,8 @@ class Dashboard(GoalPad):
 
     def _follow_topics(self) -> None:
         """Listen to each topic that a node publishes and the recorder does not hear."""
-        node, recorder = self.backend.node, self.backend.recorder
-        known = {recorder.pose_topic, recorder.command_topic, STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC}
+        node = self.backend.node
+        known = {POSE_TOPIC, COMMAND_TOPIC, STATUS_TOPIC, SCAN_TOPIC, OBSTACLE_TOPIC}
         found = {
             topic: types[0]
             for topic, types in sorted(node.get_topic_names_and_types())

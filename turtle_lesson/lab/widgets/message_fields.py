@@ -285,8 +285,7 @@ class Rows(Part):
     def _fill(self, value: Any) -> None:
         for each in value:
             self._append(each)
-        self.default = [part.default for part in self.parts if isinstance(part, Single)]
-        self._count = len(self.parts)
+        self.default = self._values()
 
     def _append(self, value: Any) -> None:
         self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self.constants, self))
@@ -320,11 +319,11 @@ class Rows(Part):
         return [row.build(now) for row in self.parts]
 
     def changed(self) -> Any:
-        if self.kind.is_message:
-            values = [row.changed() or {} for row in self.parts]
-            return values if len(values) != self._count or any(values) else None
-        values = [row.value() for row in self.parts if isinstance(row, Single)]
+        values = self._values()
         return None if same(values, self.default) else values
+
+    def _values(self) -> list[Any]:
+        return [row.value() if isinstance(row, Single) else row.changed() or {} for row in self.parts]
 
     def state(self) -> dict[str, Any]:
         own = {"control": "rows", "full": self.why_full, "fixed": self.kind.array == "fixed"}

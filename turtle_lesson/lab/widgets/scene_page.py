@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..path import distance_driven, find_jumps
+from ..recording import POSE_TOPIC
 from ..words import number, point
 from . import scene_commands
 from .live_widget import pack, source
@@ -83,12 +84,12 @@ def replay_page(scene: Scene, since: float | None, until: float | None) -> Scene
     poses = recorder.window(recorder.poses, since, until)
     poses = poses[np.isfinite(poses["x"]) & np.isfinite(poses["y"]) & np.isfinite(poses["theta"])]
     if len(poses) < 2:
-        raise ValueError(f"There is no run to replay in that time. {recorder.why_silent(recorder.pose_topic)}")
+        raise ValueError(f"There is no run to replay in that time. {recorder.why_silent(POSE_TOPIC)}")
     scene.redraw()
     begin, end = (float(recorder.seconds(poses[at]["stamp"])) for at in (0, -1))
     driven = distance_driven(poses, find_jumps(poses))
     text = (
-        f"Replay of {recorder.turtle} from {number(begin)} s to {number(end)} s of robot time: {number(driven)} m driven, "
+        f"Replay of turtle1 from {number(begin)} s to {number(end)} s of robot time: {number(driven)} m driven, "
         f"from {point(poses[0]['x'], poses[0]['y'])} m to {point(poses[-1]['x'], poses[-1]['y'])} m."
     )
     turtle, trail, growth = _run(poses)
