@@ -7,16 +7,13 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from rclpy.node import Node, NodeNameNonExistentError
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from ..ros.idl.names import is_hidden
 from . import drawing
 from .words import count, listed, number
-
-if TYPE_CHECKING:
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 EVERYWHERE = frozenset({"/rosout", "/parameter_events"})
 """Topics that every node has: they say nothing about how a system is built."""

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import shlex
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import traitlets
 from rclpy.node import Node
+from rclpy.timer import Timer
 
 from ...ros.idl.names import is_hidden
 from ..words import count, listed, suggestion, within
 from .backend import LazyClient, LazyPublisher, Link, let_time_go_on
 from .live_widget import LiveWidget
 from .message_fields import Group, Part, Rows, Single, find_class, find_part, form_of
-
-if TYPE_CHECKING:
-    from rclpy.timer import Timer
 
 SomePart = TypeVar("SomePart", bound=Part)
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import traitlets
 from rclpy.node import Node
+from rclpy.timer import Timer
 
 from ...ros.idl.names import is_hidden, nearest
 from .. import drawing
@@ -21,9 +22,6 @@ from ..words import count, enumerated, number, suggestion, within
 from .backend import Link
 from .live_widget import LiveWidget, pack
 from .message_fields import Kind, find_class, kinds_of
-
-if TYPE_CHECKING:
-    from rclpy.timer import Timer
 
 KEPT = 20_000
 """Numbers that are kept of a curve: more than five minutes of a turtle's pose."""

@@ -95,28 +95,15 @@ def cast_no_shadow(path: str) -> bytes:
     return tell(f"{path}/<object>", "castShadow", False)
 
 
-def light(path: str, intensity: float, position: Iterable[float], reach: float = 9.0) -> bytes:
-    """A light as far away as the sun, which throws shadows within `reach` metres of the middle."""
-    box = {"left": -reach, "right": reach, "top": reach, "bottom": -reach, "near": 1.0, "far": 60.0, "zoom": 1.0}
-    matrix = [1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, *map(float, position), 1.0]
-    shadow = {
-        "bias": -0.0008,
-        "radius": 2.5,
-        "mapSize": [2048, 2048],
-        "camera": {"type": "OrthographicCamera", "uuid": f"{path}#camera", **box},
-    }
-    lamp = {"type": "DirectionalLight", "uuid": path, "color": 0xFFFFFF, "intensity": intensity}
-    data = {"object": {**lamp, "matrix": matrix, "shadow": shadow}, "geometries": [], "materials": []}
-    return packed("set_object", path, object=data)
-
-
 # -- scene parts ----------------------------------------------------------------------------------------------------
 # Each list of commands brings its part up to date, whatever was there. All paths are below "lab", whose origin is the lower
 # left corner of the world; the viewer's own is its middle.
 
 TURTLE = "lab/turtle"
 SUN = (-5.0, -7.0, 14.0)
-"""Where the light comes from that throws the shadows, m."""
+"""Where the light comes from that throws the shadows, m; as that of the sun it comes from one direction."""
+REACH = 9.0
+"""How far from the middle there are shadows, m."""
 
 
 @cache
@@ -127,7 +114,7 @@ def stage() -> list[bytes]:
     ours = [
         put("lab", placed(-WORLD / 2, -WORLD / 2)),
         *lights,
-        light("Lights/Sun", 0.55, SUN),
+        _sun("Lights/Sun"),
         remove("Grid"),
         remove("Axes"),
     ]
@@ -139,6 +126,16 @@ def stage() -> list[bytes]:
     for name, ((x, y), leg) in scene_mesh.legs().items():
         ours += [put(f"{TURTLE}/{name}", placed(x, y)), show(f"{TURTLE}/{name}/swing", leg)]
     return ours
+
+
+def _sun(path: str) -> bytes:
+    box = {"left": -REACH, "right": REACH, "top": REACH, "bottom": -REACH, "near": 1.0, "far": 60.0, "zoom": 1.0}
+    camera = {"type": "OrthographicCamera", "uuid": f"{path}#camera", **box}
+    shadow = {"bias": -0.0008, "radius": 2.5, "mapSize": [2048, 2048], "camera": camera}
+    matrix = placed(*SUN).T.ravel().tolist()
+    lamp = {"type": "DirectionalLight", "uuid": path, "color": 0xFFFFFF, "intensity": 0.55}
+    data = {"object": {**lamp, "matrix": matrix, "shadow": shadow}, "geometries": [], "materials": []}
+    return packed("set_object", path, object=data)
 
 
 def turtle_at(x: float, y: float, theta: float) -> bytes:

@@ -258,7 +258,7 @@ def outline(obstacle: Obstacle) -> np.ndarray:
     return (flat @ matrix[:3, :3].T + matrix[:3, 3])[:, :2]
 
 
-def ribbon(pieces: Iterable[np.ndarray], width: float = 0.07, height: float = 0.012) -> Mesh:
+def ribbon(pieces: Iterable[np.ndarray], width: float = 0.07) -> Mesh:
     """Lines on the floor, each through points (n by 2) in their order: two triangles a step.
 
     A step is a little longer than from point to point, so that no gap opens at a corner.
@@ -268,7 +268,7 @@ def ribbon(pieces: Iterable[np.ndarray], width: float = 0.07, height: float = 0.
     along = width / 2 * (ends - begins) / np.hypot(*(ends - begins).T)[:, None]
     across = along[:, ::-1] * (-1, 1)
     back, front = begins - 0.6 * along, ends + 0.6 * along
-    corners = [lifted(flat, height) for flat in (back - across, front - across, front + across, back + across)]
+    corners = [lifted(flat, 0.012) for flat in (back - across, front - across, front + across, back + across)]
     return triangles(np.stack(corners, axis=1)[:, [0, 1, 2, 0, 2, 3]], TRAIL)
 
 
@@ -287,7 +287,7 @@ def fan(beams: Beams, x: float, y: float, theta: float) -> tuple[Mesh, Mesh]:
     return free, _marks(beams, ends).moved(placed(x, y, 0.0, theta))
 
 
-def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2) -> Mesh:
+def _marks(beams: Beams, ends: np.ndarray) -> Mesh:
     """An upright band along what the beams hit: joined where neighbours hit the same thing, a short piece elsewhere."""
     half = abs(beams.angles[1] - beams.angles[0]) / 2 if len(beams) > 1 else 0.01
     seen = np.flatnonzero(beams.sees)
@@ -297,6 +297,7 @@ def _marks(beams: Beams, ends: np.ndarray, low: float = 0.03, high: float = 0.2)
     far, turn = ends[seen] - 0.02, beams.angles[seen]
     right = _polar(far, np.where(goes_on, turn, turn - half))
     left = _polar(np.where(goes_on, ends[after] - 0.02, far), np.where(goes_on, beams.angles[after], turn + half))
+    low, high = 0.03, 0.2
     ends_up = [(right, low), (left, low), (left, high), (right, low), (left, high), (right, high)]
     return triangles(np.stack([lifted(flat, height) for flat, height in ends_up], axis=1), HIT)
 

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import traitlets
 from geometry_msgs.msg import Twist
+from rclpy.timer import Timer
 
 from ...ros.stdlib.clocks import real_monotonic
 from ..words import number, within
 from .backend import LazyPublisher, Link, let_time_go_on
 from .live_widget import LiveWidget
-
-if TYPE_CHECKING:
-    from rclpy.timer import Timer
 
 TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1
