@@ -68,10 +68,6 @@ class Curve:
         self.read = reader(steps)
         self.problem = ""
 
-    def hear(self, message: Any, info: Mapping[str, Any]) -> None:
-        """Take the number of a message."""
-        self.table.append(info["source_timestamp"], self.read(message))
-
 
 def split(asked: str, topics: Iterable[str]) -> tuple[str, str]:
     """The longest topic with which this begins, and what follows; "" for both where none does."""
@@ -162,14 +158,14 @@ class LivePlot(LiveWidget):
         self._curves = [Curve(asked) for asked in dict.fromkeys(_checked(backend.node, fields))]
         self._channels: dict[str, Channel] = {}
         self._timer: Timer | None = None
-        within("seconds of a live plot", seconds, 0.1, 3600)
+        seconds = within("seconds of a live plot", seconds, 0.1, 3600)
         for curve in self._curves:
             curve.find(dict(backend.node.get_topic_names_and_types()))
-        super().__init__(backend, seconds=float(seconds))
-        self._listen()
+        super().__init__(backend, seconds=seconds)
+        self.opened()
         self.tick()
 
-    def _listen(self) -> None:
+    def opened(self) -> None:
         if self._timer is None:
             self._timer = self.backend.node.create_timer(1.0, self._look)
             self._look()
@@ -195,12 +191,9 @@ class LivePlot(LiveWidget):
         def hear(message: Any, info: Any) -> None:
             for curve in self._curves:
                 if curve.topic == topic and not curve.problem:
-                    curve.hear(message, info)
+                    curve.table.append(info["source_timestamp"], curve.read(message))
 
         return Channel(self.backend.node, topic, type_name, lambda _: hear, "It waits until a node does.")
-
-    def opened(self) -> None:
-        self._listen()
 
     def left(self) -> None:
         if self._timer is not None:
