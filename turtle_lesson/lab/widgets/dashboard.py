@@ -155,24 +155,24 @@ class Dashboard(GoalPad):
         battery = f", battery {number(statuses[0]['battery'], 1)} %" if len(statuses) and len(recorder.poses) else ""
         return super()._place() + battery
 
-    def _why_silent(self, topic: str) -> str:
-        """A sentence on why nothing came on a topic that the recorder hears, and what to try."""
+    # -- status and scan -----------------------------------------------------------------------------------------------
+
+    def _silence(self, what: str, topic: str, table: Table) -> str:
+        """A sentence on why nothing comes on a topic that the recorder hears, and what to try; "" if something does."""
+        if last := table.last():
+            age = self.backend.now - self.backend.recorder.seconds(last[0])
+            return f"No {what} for {age:.0f} s." if age > LATE else ""
         if self.backend.node.count_publishers(topic):
             return f"No message has come on {topic} yet: messages come while robot time passes."
         return self.backend.recorder.why_silent(topic)
 
-    # -- status and scan -----------------------------------------------------------------------------------------------
-
     def _show_status(self) -> None:
-        recorder, now = self.backend.recorder, self.backend.now
-        newest = recorder.statuses.last()
-        if newest:
-            if self.is_new("status", newest):
-                self._send_statuses()
-            age = now - recorder.seconds(newest[0])
-            self.status_note = f"No status for {age:.0f} s." if age > LATE else ""
-        elif self.due("status note", 1):
-            self.status_note = self._why_silent(STATUS_TOPIC)
+        statuses = self.backend.recorder.statuses
+        newest = statuses.last()
+        if newest and self.is_new("status", newest):
+            self._send_statuses()
+        if newest or self.due("status note", 1):
+            self.status_note = self._silence("status", STATUS_TOPIC, statuses)
 
     def _send_statuses(self) -> None:
         """Send those of the window, thinned so that a point that stays does not move while time goes on."""
@@ -194,14 +194,11 @@ class Dashboard(GoalPad):
     def _show_scan_in_words(self) -> None:
         recorder = self.backend.recorder
         scanned = recorder.scans.last()
-        if not scanned:
-            if self.due("scan note", 1):
-                self.scan_words = {"beam": -1, "nearest": "", "count": "", "note": self._why_silent(SCAN_TOPIC)}
-            return
-        age = self.backend.now - recorder.seconds(scanned[0])
-        note = f"No scan for {age:.0f} s." if age > LATE else ""
-        if self.is_new("scan in words", (scanned, note)):
-            self.scan_words = {**in_words(read_beams(recorder.last_scan)), "note": note}
+        if scanned or self.due("scan note", 1):
+            note = self._silence("scan", SCAN_TOPIC, recorder.scans)
+            if self.is_new("scan in words", (scanned, note)):
+                seen = in_words(read_beams(recorder.last_scan)) if scanned else {"beam": -1, "nearest": "", "count": ""}
+                self.scan_words = {**seen, "note": note}
 
     # -- rates ---------------------------------------------------------------------------------------------------------
 
