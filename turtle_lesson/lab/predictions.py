@@ -14,7 +14,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 from . import drawing
-from .path import TOLERANCE, Goal
+from .path import TOLERANCE, Goal, Place
 from .recording import WORLD
 from .words import listed, number, point, suggestion
 
@@ -245,8 +245,6 @@ SCALE, SIDE, KEY = 24.0, WORLD * 24.0, 22.0
 """Pixels a metre, of the world's side, and a line of the key."""
 LEFT, TOP, RIGHT, BOTTOM = 40.0, 14.0, 18.0, 42.0
 """Pixels around the world: a mark at a wall is not cut."""
-
-Place = tuple[float, float]
 
 
 def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess: Place | None, outcome: Place) -> str:

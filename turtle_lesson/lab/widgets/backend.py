@@ -234,10 +234,6 @@ def in_a_moment(backend: Link, has_come: Callable[[], bool]) -> None:
         backend.clock.step(0.005)
 
 
-Answered = Callable[[str, str], object]
-"""Called with what became of a question: in words, and the answer in YAML ("" where none came)."""
-
-
 class LazyClient:
     """Calls one service, one request at a time. Until the first request the graph shows nothing of it."""
 
@@ -247,15 +243,18 @@ class LazyClient:
         self._future: Future | None = None
         self._held: Any = None
         self._deadline = self._asked = 0.0
-        self._answered: Answered = lambda words, answer: None
+        self._answered: Callable[[str, str], object] = lambda words, answer: None
 
     @property
     def asking(self) -> bool:
         """Whether it waits for an answer."""
         return self._future is not None or self._held is not None
 
-    def ask(self, request: Any, timeout: float, answered: Answered) -> None:
-        """Ask; `answered` hears what came, at the latest after `timeout` s of robot time."""
+    def ask(self, request: Any, timeout: float, answered: Callable[[str, str], object]) -> None:
+        """Ask; `answered` is told what became of it, in words, and the answer in YAML ("" where none came).
+
+        That is at the latest after `timeout` s of robot time.
+        """
         if self.asking:
             raise ValueError(f"{self._name} has not answered the last request yet: wait, or stop waiting.")
         self._answered = answered

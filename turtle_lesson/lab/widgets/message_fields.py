@@ -150,9 +150,6 @@ MOST_ROWS = 64
 
 TIME = "builtin_interfaces/Time"
 
-Build = Callable[[], Any]
-"""Gives the time of sending, as a message."""
-
 
 class Part:
     """A part of a form: a single field, the fields of a message, or the rows of an array."""
@@ -180,8 +177,11 @@ class Part:
         for part in self.parts:
             yield from part.singles()
 
-    def build(self, now: Build) -> Any:
-        """The value, as the message's field wants it. Raises ValueError, in words, for what a field cannot be."""
+    def build(self, now: Callable[[], Any]) -> Any:
+        """The value, as the message's field wants it; `now` gives the time of sending.
+
+        Raises ValueError, in words, for what a field cannot be.
+        """
         raise NotImplementedError
 
     def changed(self) -> Any:
@@ -214,7 +214,7 @@ class Single(Part):
             raise ValueError(f"at most {self.kind.longest} characters fit here, these are {len(self.text)}")
         return self.text
 
-    def build(self, now: Build) -> Any:
+    def build(self, now: Callable[[], Any]) -> Any:
         value = self.value()
         return bytes([value]) if self.kind.base == "octet" else value
 
@@ -257,7 +257,7 @@ class Group(Part):
             own = {name: each for name, each in constants.items() if name.startswith(prefixes[field])}
             self.parts.append(make_part(field, kind, getattr(value, field), own or anyone, self))
 
-    def build(self, now: Build) -> Any:
+    def build(self, now: Callable[[], Any]) -> Any:
         if self.now:
             return now()
         message = self.message_class()
@@ -315,7 +315,7 @@ class Rows(Part):
         for at, row in enumerate(self.parts):
             row.name = str(at)
 
-    def build(self, now: Build) -> list[Any]:
+    def build(self, now: Callable[[], Any]) -> list[Any]:
         return [row.build(now) for row in self.parts]
 
     def changed(self) -> Any:

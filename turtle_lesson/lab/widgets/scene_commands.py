@@ -110,19 +110,19 @@ REACH = 9.0
 def stage() -> list[bytes]:
     """What never changes, in any scene: lights, floor, walls and the turtle itself."""
     hidden = ("SpotLight", "PointLightNegativeX", "PointLightPositiveX")
-    lights = [tell(f"Lights/{name}/<object>", "visible", False) for name in hidden]
     ours = [
         put("lab", placed(-WORLD / 2, -WORLD / 2)),
-        *lights,
+        *(tell(f"Lights/{name}/<object>", "visible", False) for name in hidden),
         _sun("Lights/Sun"),
         remove("Grid"),
         remove("Axes"),
+        show("lab/floor", scene_mesh.floor(), color=_number(scene_mesh.FLOOR)),
+        show("lab/grid", scene_mesh.grid(), color=_number(scene_mesh.GRID)),
+        cast_no_shadow("lab/grid"),
+        show(f"{TURTLE}/body", scene_mesh.body()),
     ]
-    ours.append(show("lab/floor", scene_mesh.floor(), color=_number(scene_mesh.FLOOR)))
-    ours += [show("lab/grid", scene_mesh.grid(), color=_number(scene_mesh.GRID)), cast_no_shadow("lab/grid")]
     for number, wall in enumerate(scene_mesh.walls()):
         ours.append(show(f"lab/walls/{number}", wall, color=_number(scene_mesh.WALL)))
-    ours.append(show(f"{TURTLE}/body", scene_mesh.body()))
     for name, ((x, y), leg) in scene_mesh.legs().items():
         ours += [put(f"{TURTLE}/{name}", placed(x, y)), show(f"{TURTLE}/{name}/swing", leg)]
     return ours

@@ -14,15 +14,11 @@ from ..words import number, within
 from .backend import LazyPublisher, Link, let_time_go_on
 from .live_widget import LiveWidget
 
-TYPE = "geometry_msgs/msg/Twist"
 PERIOD = 0.1
 """Seconds of robot time between two velocities while the stick is held."""
 
 SIGN_OF_LIFE = 0.3
 """Seconds of real time after which a stick that says nothing counts as let go: the dead man's switch."""
-
-FASTEST = 10.0
-"""What the highest speeds can be set to, m/s and rad/s."""
 
 
 class Teleop(LiveWidget):
@@ -54,7 +50,7 @@ class Teleop(LiveWidget):
         if not isinstance(topic, str) or not topic:
             raise ValueError(f'the topic to drive on must be a name such as "/turtle1/cmd_vel", got {topic!r}')
         name = backend.node.resolve_topic_name(topic)
-        self._publisher = LazyPublisher(backend, name, Twist, TYPE)
+        self._publisher = LazyPublisher(backend, name, Twist, "geometry_msgs/msg/Twist")
         self._timer: Timer | None = None
         self._last_sign = -math.inf
         super().__init__(backend, topic=name)
@@ -101,7 +97,7 @@ class Teleop(LiveWidget):
         for name, value in speeds.items():
             if name not in self.limits:
                 raise ValueError(f"A highest speed is one of forward and turn, got {name}.")
-            self.limits = {**self.limits, name: within(f"highest speed ({name})", value, 0.01, FASTEST)}
+            self.limits = {**self.limits, name: within(f"highest speed ({name})", value, 0.01, 10)}
 
     def tick(self) -> None:
         self._watch()
