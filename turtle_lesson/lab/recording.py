@@ -40,6 +40,8 @@ class Table:
         self.limit = limit
         self._row = struct.Struct(f"=q{len(names)}d")
         self._rows = bytearray()
+        # bytes at which old rows go: some way over the limit, so that it is not done for each row
+        self._full = (limit + limit // 8 + 1) * self._row.size
 
     def __len__(self) -> int:
         return min(len(self._rows) // self._row.size, self.limit)
@@ -68,12 +70,14 @@ class Table:
 
     def array(self) -> np.ndarray:
         """The rows as a numpy array of their own: fields `stamp` (ns, int64) and `names` (float64)."""
-        return self._since(-self.limit * self._row.size)
+        return self.newest(self.limit)
 
     def newest(self, count: int) -> np.ndarray:
         """The last `count` rows, or all where there are fewer: cheap however long the table is."""
+        import numpy as np
+
         wanted = min(count, len(self)) * self._row.size
-        return self._since(len(self._rows) - wanted)
+        return np.frombuffer(bytes(self._rows[len(self._rows) - wanted :]), self._type)
 
     def last(self) -> tuple[float, ...]:
         """The newest row: its time (ns) and its numbers; () where there is none."""
@@ -89,21 +93,11 @@ class Table:
                 return rows[rows["stamp"] > stamp]
             count *= 4
 
-    def _since(self, first_byte: int) -> np.ndarray:
-        import numpy as np
-
-        return np.frombuffer(bytes(self._rows[first_byte:]), self._type)
-
     @cached_property
     def _type(self) -> np.dtype[Any]:
         import numpy as np
 
         return np.dtype([("stamp", "=i8"), *((name, "=f8") for name in self.names)])
-
-    @property
-    def _full(self) -> int:
-        """Bytes at which old rows go: some way over the limit, so that it is not done for each row."""
-        return (self.limit + self.limit // 8 + 1) * self._row.size
 
     def _trim(self) -> None:
         if len(self._rows) > self._full:

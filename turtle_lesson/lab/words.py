@@ -95,11 +95,8 @@ def same(one: Any, other: Any) -> bool:
 
 def within(what: str, value: Any, low: float = -math.inf, high: float = math.inf) -> float:
     """A number that came from a page or a cell. Raises ValueError unless it is a finite one from `low` to `high`."""
-    if (
-        isinstance(value, bool)
-        or not isinstance(value, (int, float))
-        or not (math.isfinite(value) and low <= value <= high)
-    ):
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not is_number or not math.isfinite(value) or not low <= value <= high:
         span = f" from {low:g} to {high:g}" if math.isfinite(low) else ""
         raise ValueError(f"The {what} must be a number{span}, got {value!r}.")
     return float(value)

@@ -52,10 +52,6 @@ class Goal:
     ended: float | None = None
     """Robot time of the answer, s."""
 
-    def as_state(self) -> dict[str, Any]:
-        """What the browser is told."""
-        return {name: getattr(self, name) for name in self.__slots__}
-
     @property
     def was_taken(self) -> bool:
         """Whether the navigator set out for it, and did not lose it on the way."""

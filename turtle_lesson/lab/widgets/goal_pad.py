@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from dataclasses import replace
+from dataclasses import asdict, replace
 from itertools import product
 from typing import Any, ClassVar
 
@@ -105,7 +105,7 @@ class GoalPad(LiveWidget):
             self.desk.look()
         if self._goal_news:
             self._goal_news = False
-            self.goals = [each.as_state() for each in self.desk.goals[-SHOWN:]]
+            self.goals = [asdict(each) for each in self.desk.goals[-SHOWN:]]
             self.earlier = max(0, len(self.desk.goals) - SHOWN)
 
     def _text(self) -> str:
@@ -140,7 +140,8 @@ class GoalPad(LiveWidget):
             self.scan = pack([scan.angle_min, scan.angle_increment, scan.range_max, *scan.ranges])
             self.scanned_from = pack(recorder.pose_at_scan() or [])
         if self.is_new("obstacles", self.backend.board.obstacles):
-            self.obstacles = [as_state(each) for each in self.backend.board.obstacles]
+            told = ("shape", "x", "y", "width", "height", "angle")
+            self.obstacles = [{name: getattr(each, name) for name in told} for each in self.backend.board.obstacles]
 
     # -- clock -------------------------------------------------------------------------------------------------------
 
@@ -266,8 +267,3 @@ class GoalPad(LiveWidget):
 
 def _ending(goal: Goal) -> str:
     return f"{goal.state}. {goal.answer}" if goal.answer else f"{goal.state}."
-
-
-def as_state(obstacle: Obstacle) -> dict[str, Any]:
-    """What the browser is told of an obstacle."""
-    return {name: getattr(obstacle, name) for name in ("shape", "x", "y", "width", "height", "angle")}
