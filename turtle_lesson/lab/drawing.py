@@ -77,8 +77,6 @@ SETTINGS: Any = {
     "path.simplify": True,
     "text.usetex": False,
     "text.parse_math": False,
-    "savefig.bbox": None,
-    "svg.hashsalt": "turtle lesson",
 }
 
 

@@ -46,10 +46,8 @@ def plot_sequence(trace: Trace, *services: str, since: float | None = None, unti
     text = " ".join([f"{shown} of {what}.", *map(_sentence, steps)])
     programs = list(dict.fromkeys(name for step in steps for name in (step.call.caller, step.call.server) if name))
     events = [event for _, event in sorted(chain(*map(_events, steps)), key=itemgetter(0))]
-    title = f"Calls of {what}"
-    return GraphPicture(
-        text, sequence_diagram(programs, events, title, text), draw_sequence(programs, events, title, text)
-    )
+    shown_as = programs, events, f"Calls of {what}", text
+    return GraphPicture(text, sequence_diagram(*shown_as), draw_sequence(*shown_as))
 
 
 def _nothing(trace: Trace, names: list[str], called: Sequence[Call], window: Window) -> str:
