@@ -274,10 +274,15 @@ def text_width(text: str, size: float) -> float:
     return size * sum(0.36 if each in NARROW else 0.92 if each in WIDE else 0.61 for each in text)
 
 
+def sizes(**numbers: float) -> str:
+    """Attributes of an element with one decimal each: `sizes(x=1, width=2.25)` is 'x="1.0" width="2.2"'."""
+    return " ".join(f'{name}="{number(each, 1)}"' for name, each in numbers.items())
+
+
 def text(x: float, y: float, words: str, size: float = 12, anchor: str = "middle", fill: str = INK) -> str:
     """Words whose baseline is at `y`, and whose middle (or "start" or "end") is at `x`."""
     look = f'font-size="{size:g}" text-anchor="{anchor}" fill="{fill}"'
-    return f'<text x="{number(x, 1)}" y="{number(y, 1)}" {look}>{html.escape(words)}</text>'
+    return f"<text {sizes(x=x, y=y)} {look}>{html.escape(words)}</text>"
 
 
 def document(width: float, height: float, title: str, description: str, parts: list[str]) -> str:

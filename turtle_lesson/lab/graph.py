@@ -292,7 +292,7 @@ def _draw_box(box: Box, left: float, width: float, column: str) -> str:
     fill, edge, ink = LOOKS[column]
     top = box.middle - box.height / 2
     round_ends = min(box.height / 2, 14.0) if column == "nodes" else 3.0
-    frame = f'x="{number(left, 1)}" y="{number(top, 1)}" width="{number(width, 1)}" height="{number(box.height, 1)}"'
+    frame = drawing.sizes(x=left, y=top, width=width, height=box.height)
     parts = [f'<rect {frame} rx="{round_ends:g}" fill="{fill}" stroke="{edge}" stroke-width="1.3"/>']
     if column == "services":
         for x in (left + 4, left + width - 4):

@@ -295,15 +295,12 @@ def _axes() -> list[str]:
     parts.append(drawing.text(LEFT + SIDE / 2, TOP + SIDE + 32, "x in metres", 11))
     across = f'transform="translate(12 {number(TOP + SIDE / 2, 1)}) rotate(-90)"'
     parts.append(f"<g {across}>{drawing.text(0, 0, 'y in metres', 11)}</g>")
-    frame = (
-        f'width="{number(SIDE, 1)}" height="{number(SIDE, 1)}" fill="none" stroke="{drawing.INK}" stroke-width="1.5"'
-    )
+    frame = f'{drawing.sizes(width=SIDE, height=SIDE)} fill="none" stroke="{drawing.INK}" stroke-width="1.5"'
     return [*parts, f'<rect x="{LEFT:g}" y="{TOP:g}" {frame}/>']
 
 
 def _line(x: float, y: float, to_x: float, to_y: float, colour: str, more: str = "") -> str:
-    ends = f'x1="{number(x, 1)}" y1="{number(y, 1)}" x2="{number(to_x, 1)}" y2="{number(to_y, 1)}"'
-    return f'<line {ends} stroke="{colour}" {more}/>'
+    return f'<line {drawing.sizes(x1=x, y1=y, x2=to_x, y2=to_y)} stroke="{colour}" {more}/>'
 
 
 def _disc(x: float, y: float, radius: int, look: str) -> str:

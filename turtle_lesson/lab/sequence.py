@@ -259,9 +259,7 @@ def _box(x: float, top: float, width: float, height: float, lines: list[str], ki
     """Lines of text in a box that looks like those of this kind in the graph, with the same dark text in both kinds."""
     fill, edge, _ = LOOKS[kind]
     ink = LOOKS["nodes"][2]
-    frame = (
-        f'x="{number(x - width / 2, 1)}" y="{number(top, 1)}" width="{number(width, 1)}" height="{number(height, 1)}"'
-    )
+    frame = drawing.sizes(x=x - width / 2, y=top, width=width, height=height)
     first = top + height / 2 + 4.5 - LINE * (len(lines) - 1) / 2
     written = "".join(drawing.text(x, first + LINE * at, line, SIZE, fill=ink) for at, line in enumerate(lines))
     return f'<rect {frame} rx="4" fill="{fill}" stroke="{edge}"/>{written}'

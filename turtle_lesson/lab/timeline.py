@@ -100,18 +100,12 @@ def _draw_lane(axes: Axes, place: int, lane: Lane) -> None:
     if len(lane.bars):
         spans = [(begin, end - begin) for begin, end in lane.bars / NANOSECONDS]
         label = "awaits, thread free" if lane.awaits else "holds its thread"
-        axes.broken_barh(
-            spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, label=label, **AWAITS if lane.awaits else HOLDS
-        )
-    dots: dict[str, Any] = {"linewidth": 1.6, "linestyle": (0, (1.2, 1.2)), "marker": "o", "markersize": 3.0}
+        look = AWAITS if lane.awaits else HOLDS
+        axes.broken_barh(spans, (place - 0.27, 0.54), linewidth=0.8, zorder=2.5, label=label, **look)
+    line: dict[str, Any] = {"color": drawing.VERMILLION, "linewidth": 1.6, "linestyle": (0, (1.2, 1.2))}
+    begin: dict[str, Any] = {"marker": "o", "markersize": 3.0, "markevery": [0]}
     for wait in lane.waits / NANOSECONDS:  # beneath the bars, for it may be another run that lasts meanwhile
-        look: dict[str, Any] = {
-            "color": drawing.VERMILLION,
-            "markevery": [0],
-            "zorder": 2,
-            "label": "ready, had to wait",
-        }
-        axes.plot(wait, [place + 0.37] * 2, **look, **dots)
+        axes.plot(wait, [place + 0.37] * 2, zorder=2, label="ready, had to wait", **line, **begin)
 
 
 SHORT = 1_000_000

@@ -117,8 +117,7 @@ class GoalClient:
             request = NavigateTo.Request(x=goal.x, y=goal.y, theta=goal.theta)
         except ImportError:
             build = "colcon build --packages-select robot_controller, then source install/setup.bash"
-            words = f"The package robot_controller is not here. Build it and source it: {build}"
-            self._finish(goal, "not sent", words)
+            self._finish(goal, "not sent", f"The package robot_controller is not here. Build it and source it: {build}")
             return
         except (AssertionError, TypeError, ValueError) as error:  # too large for its float32
             self._finish(goal, "not sent", f"{error}")

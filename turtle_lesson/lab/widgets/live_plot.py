@@ -62,9 +62,8 @@ class Curve:
             self.problem = f"There is no such topic yet; now there are {enumerated(visible)}.{hint}"
             return
         self.type_name = topics[self.topic][0]
-        self.path = rest.lstrip("/.").replace(".", "/")
         steps = steps_to_number(self.topic, self.type_name, rest)
-        self.path = self.path or str(steps[0])
+        self.path = rest.lstrip("/.").replace(".", "/") or str(steps[0])
         self.read = reader(steps)
         self.problem = ""
 

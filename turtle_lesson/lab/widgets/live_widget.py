@@ -134,10 +134,9 @@ class LiveWidget(anywidget.AnyWidget):
 
     def is_new(self, what: str, value: object) -> bool:
         """Whether a value has changed since it was last asked about, so that it has to be shown again."""
-        if what in self._shown and self._shown[what] == value:
-            return False
+        changed = what not in self._shown or self._shown[what] != value
         self._shown[what] = value
-        return True
+        return changed
 
     @property
     def is_seen(self) -> bool:
