@@ -187,43 +187,44 @@ class Terminal:
 Builtin = Callable[[Terminal, list[str]], int]
 
 
-def options(words: list[str], known: str) -> tuple[set[str], list[str]]:
-    """The letters after `-`, and the other words. Raises ValueError for a letter that is not known, and for `--word`."""
-    letters = {letter for word in words if re.fullmatch("-[A-Za-z0-9]+", word) for letter in word[1:]}
-    unknown = [f"-{letter}" for letter in sorted(letters - set(known))]
-    if unknown := unknown + [word for word in words if re.match("--[a-z]", word)]:
-        raise ValueError(f"no option {unknown[0]} here; known: {', '.join(f'-{each}' for each in known)}")
-    return letters, [word for word in words if not re.fullmatch("-[A-Za-z0-9]+", word) and word != "--"]
+def options(words: list[str], known: str, example: str = "", least: int = 1) -> tuple[set[str], list[str]]:
+    """The letters after `-`, and the other words.
+
+    Raises ValueError for a letter that is not known and for `--word`, and for too few words if there is an example of use.
+    """
+    given = [word for word in words if re.fullmatch("-[A-Za-z0-9]+|--[a-z].*", word)]
+    for word in given:
+        if word.startswith("--") or not set(word[1:]) <= set(known):
+            raise ValueError(f"no option {word} here; known: {', '.join(f'-{each}' for each in known) or 'none'}")
+    rest = [word for word in words if word not in (*given, "--")]
+    if example and len(rest) < least:
+        raise ValueError(f"missing operand; it is used as in {example}")
+    return set("".join(given)) - {"-"}, rest
 
 
 # -- environment variables -------------------------------------------------------------------------------------------
 # They are the notebook's own variables, which each process has a copy of when it begins.
 
 _ASSIGNMENT = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
-_NAME = re.compile(r"[A-Za-z_]\w*")
 _UNQUOTED = re.compile(r"(?<!\\)\$(?:(\w+)|\{(\w+)\})")
 
 
 def export(terminal: Terminal, words: list[str]) -> int:
     """`export NAME=value…`: set variables for what is started from now on."""
-    if not words:
-        return printenv(terminal, words)
     for word in words:
-        found = _ASSIGNMENT.fullmatch(word)
-        if found is not None:
-            os.environ[found[1]] = found[2]
-        elif not _NAME.fullmatch(word):
-            return terminal.fail(
-                f"export: {word!r} is not the name of a variable: write export NAME=value, without spaces"
-            )
-    return 0
+        name, sign, value = word.partition("=")
+        if not name.isidentifier():
+            raise ValueError(f"{word!r} is not the name of a variable: write export NAME=value, without spaces")
+        if sign:
+            os.environ[name] = value
+    return 0 if words else printenv(terminal, words)
 
 
 def unset(terminal: Terminal, words: list[str]) -> int:
     """`unset NAME…`: have variables no more."""
     for word in words:
-        if not _NAME.fullmatch(word):
-            return terminal.fail(f"unset: {word!r} is not the name of a variable")
+        if not word.isidentifier():
+            raise ValueError(f"{word!r} is not the name of a variable")
         os.environ.pop(word, None)
     return 0
 

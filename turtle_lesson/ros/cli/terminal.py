@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 def cd(terminal: Terminal, words: list[str]) -> int:
     """`cd folder`, `cd ..`, `cd -`, `cd`: change the current folder."""
     if len(words) > 1:
-        return terminal.fail("cd: too many arguments: a folder's name with a space in it needs quotes")
+        raise ValueError("too many arguments: a folder's name with a space in it needs quotes")
     target = Path(words[0]) if words else files.home()
     if words == ["-"]:
         target = Path(os.environ.get("OLDPWD", "."))
@@ -35,7 +35,7 @@ def cd(terminal: Terminal, words: list[str]) -> int:
         what, close = "Not a directory" if target.exists() else "No such file or directory", ""
         if len(str(target)) <= 200 and target.parent.is_dir():
             close = did_you_mean(target.name, [path.name for path in target.parent.iterdir() if path.is_dir()])
-        return terminal.fail(f"cd: {words[0]}: {what}. {close}".rstrip(" ."))
+        raise ValueError(f"{words[0]}: {what}. {close}".rstrip(" ."))
     os.chdir(target)
     os.environ["OLDPWD"] = str(before)
     files.last_cd = Path.cwd()
@@ -49,9 +49,7 @@ def pwd(terminal: Terminal, words: list[str]) -> int:
 
 def mkdir(terminal: Terminal, words: list[str]) -> int:
     """`mkdir [-p] folder…`: make folders."""
-    letters, names = options(["-p" if word == "--parents" else word for word in words], "pv")
-    if not names:
-        return terminal.fail("mkdir: missing operand: name the folders to make, as in mkdir -p turtle_ws/src")
+    letters, names = options(["-p" if word == "--parents" else word for word in words], "pv", "mkdir -p turtle_ws/src")
 
     def make(path: Path) -> None:
         try:
@@ -72,34 +70,29 @@ def ls(terminal: Terminal, words: list[str]) -> int:
 
     def show(place: Path) -> None:
         place.stat()
-        if place.is_dir():
-            _list_folder(terminal, place, letters, headed=len(names) > 1 or "R" in letters)
-        else:
+        if not place.is_dir():
             terminal.say(place)
+            return
+        inside = sorted(path for path in place.iterdir() if "a" in letters or not path.name.startswith("."))
+        terminal.say(*([f"{place}:"] if len(names) > 1 or "R" in letters else []), *(path.name for path in inside))
+        for path in inside if "R" in letters else ():
+            if path.is_dir():
+                terminal.say("")
+                show(path)
 
     return terminal.for_each(names or ["."], show, "ls: cannot access")
 
 
-def _list_folder(terminal: Terminal, place: Path, letters: set[str], *, headed: bool) -> None:
-    inside = sorted(path for path in place.iterdir() if "a" in letters or not path.name.startswith("."))
-    terminal.say(*([f"{place}:"] if headed else []), *(path.name for path in inside))
-    for path in inside if "R" in letters else ():
-        if path.is_dir():
-            terminal.say("")
-            _list_folder(terminal, path, letters, headed=True)
-
-
 def touch(terminal: Terminal, words: list[str]) -> int:
     """`touch file…`: make empty files."""
-    if not words:
-        return terminal.fail("touch: name the files to make")
-    return terminal.for_each(words, lambda path: files.check(path).touch(), "touch: cannot touch")
+    _, names = options(words, "", "touch notes.txt")
+    return terminal.for_each(names, lambda path: files.check(path).touch(), "touch: cannot touch")
 
 
 def chmod(terminal: Terminal, words: list[str]) -> int:
     """`chmod +x file…`: make files executable."""
     if len(words) < 2 or words[0] not in {"+x", "a+x", "u+x", "755", "0755"}:
-        return terminal.fail("chmod: here it makes files executable: chmod +x file")
+        raise ValueError("here it makes files executable: chmod +x file")
     return terminal.for_each(
         words[1:], lambda path: files.check(path).chmod(path.stat().st_mode | 0o111), "chmod: cannot access"
     )
@@ -107,9 +100,7 @@ def chmod(terminal: Terminal, words: list[str]) -> int:
 
 def rm(terminal: Terminal, words: list[str]) -> int:
     """`rm [-r] [-f] name…`: delete files, and with -r folders."""
-    letters, names = options(words, "rRfiv")
-    if not names and "f" not in letters:
-        return terminal.fail("rm: missing operand: name the files to delete, as in rm -r build install log")
+    letters, names = options(words, "rRfiv", "rm -r build install log")
 
     def delete(path: Path) -> None:
         if "f" in letters and not os.path.lexists(path):
@@ -128,16 +119,14 @@ def rm(terminal: Terminal, words: list[str]) -> int:
 
 def cp(terminal: Terminal, words: list[str]) -> int:
     """`cp [-r] from… to`: copy files, and with -r folders."""
-    letters, names = options(words, "rRafpv")
-    if len(names) < 2:
-        return terminal.fail("cp: name what to copy, and where to: cp old.py new.py")
+    letters, names = options(words, "rRafpv", "cp old.py new.py", least=2)
 
     def copy(source: Path) -> None:
         source.stat()
         target = _target(source, names[-1])
         if not source.is_dir():
             files.check(target)
-            shutil.copy(source, target)
+            shutil.copy(str(source), str(target))
         elif not letters & {"r", "R", "a"}:
             raise IsADirectoryError(EISDIR, "Is a directory. cp -r copies a folder and everything in it")
         elif Path(os.path.realpath(target)).is_relative_to(source.resolve()):
@@ -150,9 +139,7 @@ def cp(terminal: Terminal, words: list[str]) -> int:
 
 def mv(terminal: Terminal, words: list[str]) -> int:
     """`mv from… to`: rename or move files and folders."""
-    _, names = options(words, "fiv")
-    if len(names) < 2:
-        return terminal.fail("mv: name what to move, and where to: mv old.py new.py")
+    _, names = options(words, "fiv", "mv old.py new.py", least=2)
 
     def move(source: Path) -> None:
         source.stat()
@@ -186,7 +173,7 @@ def _lines(terminal: Terminal, names: Iterable[str]) -> list[str]:
 def cat(terminal: Terminal, words: list[str]) -> int:
     """`cat file…`: print files."""
     if not words and terminal.given is None:
-        return terminal.fail("cat: name the files to print")
+        raise ValueError("name the files to print")
     terminal.stdout.write("".join(_texts(terminal, words)))
     return 0
 
@@ -205,43 +192,32 @@ def echo(terminal: Terminal, words: list[str]) -> int:
 
 def grep(terminal: Terminal, words: list[str]) -> int:
     """`… | grep [-i] [-v] [-c] pattern`: the lines with a pattern in them."""
-    letters, rest = options(words, "civqE")
-    if not rest:
-        return terminal.fail("grep: name the pattern to look for", 2)
-    pattern = re.compile(rest[0] if "E" in letters else re.escape(rest[0]), re.IGNORECASE if "i" in letters else 0)
-    lines = _lines(terminal, rest[1:])
-    found = [line for line in lines if bool(pattern.search(line)) != ("v" in letters)]
-    if "c" in letters:
-        terminal.say(len(found))
-    elif "q" not in letters:
-        terminal.say(*found)
+    letters, [wanted, *names] = options(words, "civqE", "ros2 topic list | grep pose")
+    pattern = re.compile(wanted if "E" in letters else re.escape(wanted), re.IGNORECASE if "i" in letters else 0)
+    found = [line for line in _lines(terminal, names) if bool(pattern.search(line)) != ("v" in letters)]
+    if "q" not in letters:
+        terminal.say(*([len(found)] if "c" in letters else found))
     return 0 if found else 1
 
 
 def head(terminal: Terminal, words: list[str]) -> int:
     """`… | head [-n number]`: the first lines."""
-    count, rest = _count(words)
-    return terminal.say(*_lines(terminal, rest)[:count])
+    count, lines = _counted(terminal, words)
+    return terminal.say(*lines[:count])
 
 
 def tail(terminal: Terminal, words: list[str]) -> int:
     """`… | tail [-n number]`: the last lines."""
-    count, rest = _count(words)
-    lines = _lines(terminal, rest)
+    count, lines = _counted(terminal, words)
     return terminal.say(*lines[max(0, len(lines) - count) :])
 
 
-def _count(words: list[str]) -> tuple[int, list[str]]:
-    """The number behind `-n` or `-`, and the other words."""
-    count, rest = 10, []
-    waiting = iter(words)
-    for word in waiting:
-        found = re.fullmatch(r"-n?(\d+)", word)
-        if word == "-n" or found:
-            count = int(found[1] if found else next(waiting, 0))
-        else:
-            rest.append(word)
-    return count, rest
+def _counted(terminal: Terminal, words: list[str]) -> tuple[int, list[str]]:
+    """The number behind `-n` or `-`, and the lines."""
+    if words[:1] == ["-n"]:
+        words = ["".join(words[:2]), *words[2:]]
+    number = re.fullmatch(r"-n?(\d+)", words[0]) if words else None
+    return (int(number[1]), _lines(terminal, words[1:])) if number else (10, _lines(terminal, words))
 
 
 def sort(terminal: Terminal, words: list[str]) -> int:
@@ -270,7 +246,7 @@ def list_jobs(terminal: Terminal, words: list[str]) -> int:
 def sleep(terminal: Terminal, words: list[str]) -> int:
     """`sleep SECONDS`: let robot time pass, in which the programs go on."""
     if len(words) != 1 or not re.fullmatch(r"\d{1,6}(\.\d{1,9})?s?", words[0]):
-        return terminal.fail("sleep: how long? Write it in seconds of robot time, as in sleep 0.5")
+        raise ValueError("how long? Write it in seconds of robot time, as in sleep 0.5")
     run_for(terminal.world, float(words[0].rstrip("s")))
     return 0
 
@@ -282,9 +258,9 @@ def kill(terminal: Terminal, words: list[str]) -> int:
         name = words[0].lstrip("-").removeprefix("SIG")
         name, words = next((sign for sign, number in SIGNALS.items() if name == str(number)), name), words[1:]
     if name not in SIGNALS:
-        return terminal.fail(f"kill: {name}: invalid signal specification; there are {', '.join(SIGNALS)}")
+        raise ValueError(f"{name}: invalid signal specification; there are {', '.join(SIGNALS)}")
     if not words:
-        return terminal.fail("kill: which one? `jobs` lists what is running; kill -INT %1 is Ctrl-C for the first")
+        raise ValueError("which one? `jobs` lists what is running; kill -INT %1 is Ctrl-C for the first")
     code = 0
     for word in words:
         running: dict[str, Job | Process] = {f"%{job.number}": job for job in jobs(terminal.world).running}
