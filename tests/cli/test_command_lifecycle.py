@@ -110,7 +110,7 @@ def test_a_node_is_moved_through_its_states_by_labels_and_by_numbers(running: Wo
 def test_a_node_that_is_not_managed_offers_no_transitions(running: World) -> None:
     answer = type_in(running, "ros2 lifecycle set /plain configure")
     assert answer.code == 1
-    assert answer.stderr.startswith("/plain offers no get_available_transitions: it is not a managed node")
+    assert answer.stderr == "Node not found\n/plain is not a managed node.\n"
 
 
 def test_a_node_that_is_busy_is_not_waited_for_for_ever(world: World) -> None:

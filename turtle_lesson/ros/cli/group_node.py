@@ -92,14 +92,6 @@ def _managed(node: Node, include_hidden: bool) -> list[str]:
     return sorted({name for name in names if GET_STATE in services.get(f"{name}/get_state", [])})
 
 
-def _ask(node: Node, node_name: str, kind: str, service: str, **request: Any) -> Any:
-    """The answer of a managed node's service."""
-    import lifecycle_msgs.srv
-
-    not_there = f"{node_name} offers no {service}: it is not a managed node (`ros2 lifecycle nodes` lists those)"
-    return ask(node, getattr(lifecycle_msgs.srv, kind), f"{node_name}/{service}", not_there, request)
-
-
 @graph_verb("lifecycle nodes", *NODE, ALL_NODES, COUNT_NODES)
 def nodes(args: Namespace, node: Node) -> None:
     """The names of the managed nodes."""
@@ -116,12 +108,12 @@ def get(args: Namespace, node: Node) -> None:
     """The state that a managed node is in."""
     known = _managed(node, args.include_hidden_nodes)
     if args.node_name:
-        state = _ask(node, find_node(node, args, known), "GetState", "get_state").current_state
+        state = ask(node, find_node(node, args, known), GET_STATE).current_state
         print(f"{state.label} [{state.id}]")
         return
     for name in known:
         try:
-            state = _ask(node, name, "GetState", "get_state").current_state
+            state = ask(node, name, GET_STATE).current_state
         except CommandError as error:
             print(f"Exception while calling service of node '{name}': {error}", file=sys.stderr)
         else:
@@ -145,7 +137,7 @@ def list_transitions(args: Namespace, node: Node) -> None:
 
 
 def _transitions(node: Node, node_name: str, service: str) -> list[Any]:
-    return _ask(node, node_name, "GetAvailableTransitions", service).available_transitions
+    return ask(node, node_name, "lifecycle_msgs/srv/GetAvailableTransitions", service).available_transitions
 
 
 @graph_verb(
@@ -157,14 +149,14 @@ def _transitions(node: Node, node_name: str, service: str) -> list[Any]:
 )
 def set_state(args: Namespace, node: Node) -> None:
     """Trigger a transition of a managed node."""
-    name = find_node(node, args)
+    name = find_node(node, args, _managed(node, args.include_hidden_nodes))
     possible = [each.transition for each in _transitions(node, name, "get_available_transitions")]
     chosen = [each for each in possible if each.label == args.transition]
     chosen += [each for each in possible if str(each.id) == args.transition]
     if not chosen:
         lines = "".join(f"\n- {each.label} [{each.id}]" for each in possible)
         raise CommandError(f"Unknown transition requested, available ones are:{lines}")
-    if _ask(node, name, "ChangeState", "change_state", transition=chosen[0]).success:
+    if ask(node, name, "lifecycle_msgs/srv/ChangeState", transition=chosen[0]).success:
         print("Transitioning successful")
     else:
         print("Transitioning failed", file=sys.stderr)

@@ -9,7 +9,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..runtime import files
 from .arguments import HIDDEN_NODES, NODE, arg, flag
 from .typed_values import MAX_LENGTH, Unparsable, read_yaml
 from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
@@ -21,21 +20,11 @@ if TYPE_CHECKING:
 # -- parameters' values: from text as typed, to text, and to what YAML has ---------------------------------------------
 # Which text becomes which type follows a recording of the real `ros2 param set`.
 
-TYPES: tuple[tuple[str, str, str], ...] = (
-    ("not set", "", "Parameter not set."),
-    ("boolean", "bool_value", "Boolean value is:"),
-    ("integer", "integer_value", "Integer value is:"),
-    ("double", "double_value", "Double value is:"),
-    ("string", "string_value", "String value is:"),
-    ("byte array", "byte_array_value", "Byte values are:"),
-    ("boolean array", "bool_array_value", "Boolean values are:"),
-    ("integer array", "integer_array_value", "Integer values are:"),
-    ("double array", "double_array_value", "Double values are:"),
-    ("string array", "string_array_value", "String values are:"),
-)
-"""By number of rcl_interfaces/msg/ParameterType: the type's name, its field of a ParameterValue, and how it is shown."""
-
-_KINDS = {bool: 1, int: 2, float: 3, str: 4}
+TYPES = (
+    "not set", "boolean", "integer", "double", "string", "byte array", "boolean array", "integer array", "double array",
+    "string array",
+)  # fmt: skip
+"""By number of rcl_interfaces/msg/ParameterType: the type's name."""
 
 
 def from_text(text: str) -> Any:
@@ -50,13 +39,14 @@ def from_text(text: str) -> Any:
 def from_python(value: Any, text: str) -> Any:
     """The ParameterValue of what YAML gave for a text."""
     from rcl_interfaces.msg import ParameterValue
+    from rclpy.parameter import Parameter
 
-    elements, first_array = (value, 5) if isinstance(value, list) else ([value], 0)
-    kinds = [first_array + kind for type_, kind in _KINDS.items() if all(isinstance(each, type_) for each in elements)]
-    kind = kinds[0] if kinds else 4
-    message = ParameterValue(type=kind)
+    ending = "_ARRAY" if isinstance(value, list) else ""
+    kinds = [Parameter.Type[name + ending] for name in ("BOOL", "INTEGER", "DOUBLE", "STRING")]
+    kind = next((each for each in kinds if each.check(value)), Parameter.Type.STRING)
+    message = ParameterValue(type=kind.value)
     try:
-        setattr(message, TYPES[kind][1], text if kind == 4 and isinstance(value, list) else value)
+        setattr(message, f"{kind.name.lower()}_value", text if ending and kind is Parameter.Type.STRING else value)
     except (AssertionError, OverflowError) as error:
         raise CommandError(f"{text[:200]!r} is not a valid parameter value: {error}") from None
     return message
@@ -94,76 +84,47 @@ OF_NODE = (*NODE, arg("node_name", "Name of the node, such as /turtlesim"), HIDD
 PARAMETER = arg("parameter_name", "Name of the parameter")
 
 
-def _ask(node: Node, node_name: str, service: str, **request: Any) -> Any:
-    """The answer of a node's parameter service, such as GetParameters. Raises CommandError if there is none."""
-    import rcl_interfaces.srv
-
-    words = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in service).lstrip("_")
-    not_there = f"Wait for service timed out: {node_name} offers no {words}"
-    return ask(node, getattr(rcl_interfaces.srv, service), f"{node_name}/{words}", not_there, request)
-
-
 def listed(node: Node, name: str) -> list[str]:
     """The names of a node's parameters, sorted."""
-    return sorted(_ask(node, name, "ListParameters").result.names)
+    return sorted(ask(node, name, "rcl_interfaces/srv/ListParameters").result.names)
 
 
-def set_values(node: Node, node_name: str, names_and_values: list[tuple[str, Any]]) -> Any:
-    """Ask a node to set parameters; how each went, as rcl_interfaces/msg/SetParametersResult."""
+def set_values(node: Node, node_name: str, values: dict[str, Any], done: str, failed: str) -> bool:
+    """Have a node set parameters to ParameterValues, and say how each went and why; whether all were set.
+
+    `{}` in what is said stands for a parameter's name.
+    """
     from rcl_interfaces.msg import Parameter
 
-    parameters = [Parameter(name=name, value=value) for name, value in names_and_values]
-    return _ask(node, node_name, "SetParameters", parameters=parameters).results
+    parameters = [Parameter(name=name, value=value) for name, value in values.items()]
+    results = ask(node, node_name, "rcl_interfaces/srv/SetParameters", parameters=parameters).results
+    for name, result in zip(values, results, strict=True):
+        text = (done if result.successful else failed).format(name)
+        stream = sys.stdout if result.successful else sys.stderr
+        print(f"{text}: {result.reason}" if result.reason else text, file=stream)
+    return all(result.successful for result in results)
 
 
-def tell(result: Any, done: str, failed: str) -> bool:
-    """Say how setting a parameter went, and the reason that the node gave, if any; whether it was set."""
-    text = done if result.successful else failed
-    print(f"{text}: {result.reason}" if result.reason else text, file=sys.stdout if result.successful else sys.stderr)
-    return bool(result.successful)
-
-
-@graph_verb(
-    "param dump",
-    *OF_NODE,
-    arg("--output-dir", "Deprecated: write a file named after the node into this folder"),
-    flag("--print", "Deprecated: print, as without --output-dir"),
-)
+@graph_verb("param dump", *OF_NODE)
 def dump(args: Namespace, node: Node) -> None:
     """All parameters of a node, in the format that `load` reads."""
     import yaml
     from rclpy.parameter import parameter_value_to_python
 
-    if args.output_dir is not None and not Path(args.output_dir).is_dir():
-        raise CommandError(f"'{args.output_dir}' is not a valid directory.")
     name = find_node(node, args)
     names = listed(node, name)
-    values = _ask(node, name, "GetParameters", names=names).values
+    values = ask(node, name, "rcl_interfaces/srv/GetParameters", names=names).values
     pairs = zip(names, map(parameter_value_to_python, values), strict=False)
     tree = {name: {"ros__parameters": nested(list(pairs))}}
-    text = yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True)
-    if args.print:
-        print("WARNING: '--print' is deprecated; this utility prints to stdout by default", file=sys.stderr)
-    if args.print or args.output_dir is None:
-        print(text)
-        return
-    print("WARNING: '--output-dir' is deprecated; use redirection to save to a file", file=sys.stderr)
-    file = Path(args.output_dir, f"{name[1:].replace('/', '__')}.yaml")
-    print("Saving to: ", file)
-    try:
-        files.save(file, text)
-    except OSError as error:
-        raise CommandError(f"cannot write {file}: {error.strerror}") from None
+    print(yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True))
 
 
 @graph_verb("param load", *OF_NODE, arg("parameter_file", "A file as `ros2 param dump` prints it"))
 def load(args: Namespace, node: Node) -> None:
     """Set parameters from a file."""
     name = find_node(node, args)
-    parameters = _read_file(args.parameter_file, name)
-    messages = [(each, from_python(value, str(value))) for each, value in parameters.items()]
-    for (each, _), result in zip(messages, set_values(node, name, messages), strict=True):
-        tell(result, f"Set parameter {each} successful", f"Set parameter {each} failed")
+    values = {each: from_python(value, str(value)) for each, value in _read_file(args.parameter_file, name).items()}
+    set_values(node, name, values, "Set parameter {} successful", "Set parameter {} failed")
 
 
 def _read_file(path: str, node_name: str) -> dict[str, Any]:
@@ -233,8 +194,8 @@ def list_parameters(args: Namespace, node: Node) -> None:
             print(f"{name}:")
         types: dict[str, str] = {}
         if args.param_type and names:
-            descriptors = _ask(node, name, "DescribeParameters", names=names).descriptors
-            types = {each.name: f" (type: {TYPES[each.type][0]})" for each in descriptors}
+            descriptors = ask(node, name, "rcl_interfaces/srv/DescribeParameters", names=names).descriptors
+            types = {each.name: f" (type: {TYPES[each.type]})" for each in descriptors}
         for each in names:
             print(f"  {each}{types.get(each, '')}")
 
@@ -242,13 +203,19 @@ def list_parameters(args: Namespace, node: Node) -> None:
 @graph_verb("param get", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
 def get(args: Namespace, node: Node) -> None:
     """A parameter's value."""
+    from rclpy.parameter import Parameter
+
     name = find_node(node, args)
-    values = _ask(node, name, "GetParameters", names=[args.parameter_name]).values
+    values = ask(node, name, "rcl_interfaces/srv/GetParameters", names=[args.parameter_name]).values
     if not values:
         raise CommandError("Parameter not set", suggest(args.parameter_name, listed(node, name)))
-    _, field, label = TYPES[values[0].type]
-    shown = [getattr(values[0], field)] if field else []
-    print(*([] if args.hide_type else [label]), *shown)
+    kind = Parameter.Type(values[0].type)
+    what, _, array = TYPES[kind.value].partition(" ")
+    label = f"{what.capitalize()} {'values are' if array else 'value is'}:"
+    if kind is Parameter.Type.NOT_SET:
+        print("" if args.hide_type else "Parameter not set.")
+    else:
+        print(*([] if args.hide_type else [label]), getattr(values[0], f"{kind.name.lower()}_value"))
 
 
 @graph_verb("param set", *OF_NODE, PARAMETER, arg("value", "Its new value, in YAML: 1.5, true, fast, '[1, 2]'"))
@@ -268,8 +235,7 @@ def delete(args: Namespace, node: Node) -> None:
 def _change(args: Namespace, node: Node, value: Callable[[], Any], done: str, failed: str) -> None:
     """Set a parameter. As in the real tool, the exit code is 0 also if the node refuses the value."""
     name = find_node(node, args)
-    [result] = set_values(node, name, [(args.parameter_name, value())])
-    if tell(result, done, failed):
+    if set_values(node, name, {args.parameter_name: value()}, done, failed):
         return
     known = listed(node, name)
     if args.parameter_name not in known and (hint := suggest(args.parameter_name, known)):
@@ -283,10 +249,10 @@ def describe(args: Namespace, node: Node) -> None:
     If one of the parameters is unknown the real one says nothing, of any of them.
     """
     name = find_node(node, args)
-    descriptors = _ask(node, name, "DescribeParameters", names=args.parameter_names).descriptors
+    descriptors = ask(node, name, "rcl_interfaces/srv/DescribeParameters", names=args.parameter_names).descriptors
     for each in descriptors:
         print(f"Parameter name: {each.name}")
-        print(f"  Type: {TYPES[each.type][0]}")
+        print(f"  Type: {TYPES[each.type]}")
         if each.description:
             print(f"  Description: {each.description}")
         print("  Constraints:")

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any
 
-from ..idl.names import did_you_mean, is_hidden
+from ..idl.names import did_you_mean, is_hidden, module_name
 from ..runtime.world import current_process
 from .arguments import DISCOVERY, STRETCH, Argument, Parser, cut
 
@@ -192,17 +192,19 @@ def spin_for(node: Node, seconds: float | None, done: Future | None = None) -> b
 # -- asking other nodes ------------------------------------------------------------------------------------------------
 
 
-def ask(node: Node, kind: Any, service: str, not_there: str, request: dict[str, Any]) -> Any:
-    """The answer of a node's own service, such as /turtlesim/get_parameters.
+def ask(node: Node, name: str, kind: str, service: str = "", **request: Any) -> Any:
+    """The answer of a node's own service, such as get_parameters, the name of its type rcl_interfaces/srv/GetParameters.
 
-    Raises CommandError, with `not_there` if the node has no such service: the real tool waits forever for a busy node.
+    Raises CommandError if the node has no such service, and where the real tool waits forever for a busy node.
     """
-    client = node.create_client(kind, service)
+    from ..idl.registry import registry
+
+    made, service = registry.get(kind), service or module_name(kind.rpartition("/")[2]).lstrip("_")
+    client = node.create_client(made, f"{name}/{service}")
     if not client.wait_for_service(timeout_sec=PATIENCE):
-        raise CommandError(not_there)
-    future = client.call_async(kind.Request(**request))
+        raise CommandError(f"Wait for service timed out: {name} offers no {service}")
+    future = client.call_async(made.Request(**request))
     if not spin_for(node, PATIENCE, future):
-        name = service.rpartition("/")[0]
         raise CommandError(
             f"No answer from {name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
         )
