@@ -203,5 +203,8 @@ NODE = (*NODE_WITHOUT_DAEMON, flag("--no-daemon", "Accepted; no daemon is needed
 """Arguments of every verb that looks at the graph. A simulated world needs no daemon and no simulated clock."""
 
 HIDDEN_NODES = flag("--include-hidden-nodes", "Also use nodes with a hidden name")
+OF_NODE = (*NODE, arg("node_name", "Name of the node, such as /turtlesim"), HIDDEN_NODES)
+"""Arguments of every verb that asks one node."""
+
 ALL_NODES = flag("-a --all", "Also list nodes with a hidden name")
 COUNT_NODES = flag("-c --count-nodes", "Print only how many there are")

@@ -32,6 +32,7 @@ LONGEST = 1e9
 """Seconds of robot time that an argument may say: thirty years; also the fastest and the slowest rate of playing."""
 
 _at_least_0 = bounded("float", 0.0, LONGEST)
+_rate = bounded("positive_float", 1 / LONGEST, LONGEST)
 STORAGES = ["mcap", "sqlite3"]
 
 
@@ -119,26 +120,14 @@ def _info(args: Namespace) -> None:
 @verb(
     "bag play",
     *READER,
-    arg(
-        "-r --rate",
-        "How many times as fast as recorded",
-        type=bounded("positive_float", 1 / LONGEST, LONGEST),
-        default=1.0,
-    ),
+    arg("-r --rate", "How many times as fast as recorded", type=_rate, default=1.0),
     arg("--topics", "Play only these topics", nargs="+", default=[]),
     arg("-m --remap", "Other names for topics: /old:=/new ...", nargs="+", default=[]),
     flag("-l --loop", "Start over at the end"),
     arg("-d --delay", "Seconds to wait before the first message (each time)", type=_at_least_0, default=0.0),
     arg("--start-offset", "Start this many seconds into the bag", type=_at_least_0, default=0.0),
     arg("--playback-duration", "Play only this many seconds of the bag", type=_at_least_0),
-    arg(
-        "--clock",
-        "Publish the bag's time on /clock this many times a second (default: never; without a number: 40)",
-        type=frequency,
-        nargs="?",
-        const=40.0,
-        default=0.0,
-    ),
+    arg("--clock", "Publish /clock this often a second (40)", type=frequency, nargs="?", const=40.0, default=0.0),
     duration(),
 )
 def _play(args: Namespace) -> int:

@@ -137,10 +137,8 @@ def call(args: Namespace) -> None:
             future, server = client.call_async(request), (name, client.service_is_ready)
             answer = _outcome(node, future, "calling service", server, begun + longest)
             if answer is None:
-                raise CommandError(
-                    f"No answer from {name} in {longest:g} s of robot time: "
-                    "is its node busy with something else, or did an error end its callback?"
-                )
+                why = "is its node busy with something else, or did an error end its callback?"
+                raise CommandError(f"No answer from {name} in {longest:g} s of robot time: {why}")
             print(f"response:\n{answer!r}\n")
             if args.rate is None:
                 return
@@ -227,9 +225,7 @@ def send_goal(args: Namespace) -> None:
         future = client.send_goal_async(goal, print_feedback if args.feedback else None)
         handle = _outcome(node, future, "sending goal", server, until)
         if handle is None:
-            raise CommandError(
-                "The server has not said whether it accepts the goal: is its node busy with something else?"
-            )
+            raise CommandError("No answer to the goal: is the server's node busy with something else?")
         if not handle.accepted:
             print("Goal was rejected.")
             return
@@ -256,8 +252,6 @@ def _cancelled(node: Node, handle: ClientGoalHandle) -> Exception:
     if not spin_for(node, PATIENCE, future):
         return CommandError("No answer to the cancel request: is the server's node busy with something else?")
     if not future.result().goals_canceling:
-        return CommandError(
-            "Failed to cancel goal", "The server continues: its cancel_callback did not accept the cancel request."
-        )
+        return CommandError("Failed to cancel goal", "The server continues: its cancel_callback refused the request.")
     print("Goal canceled.")
     return Interrupted("(the goal took too long; --for SECONDS gives it more robot time, or less)")

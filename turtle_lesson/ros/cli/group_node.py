@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..idl.names import is_hidden
 from ..runtime.world import current_world
-from .arguments import ALL_NODES, COUNT_NODES, HIDDEN_NODES, NODE, arg, flag
+from .arguments import ALL_NODES, COUNT_NODES, HIDDEN_NODES, NODE, OF_NODE, arg, flag
 from .jobs import jobs
 from .verb import (
     CommandError,
@@ -82,9 +82,6 @@ def info(args: Namespace, node: Node) -> None:
 GET_STATE = "lifecycle_msgs/srv/GetState"
 
 
-_MANAGED = arg("node_name", "Name of the node, such as /lc_talker")
-
-
 def _managed(node: Node, include_hidden: bool) -> list[str]:
     """The full names of the managed nodes, sorted."""
     services = dict(node.get_service_names_and_types())
@@ -98,12 +95,7 @@ def nodes(args: Namespace, node: Node) -> None:
     print_names(_managed(node, args.all), count=args.count_nodes)
 
 
-@graph_verb(
-    "lifecycle get",
-    *NODE,
-    arg("node_name", "Name of the node; without one, all managed nodes are asked", nargs="?"),
-    HIDDEN_NODES,
-)
+@graph_verb("lifecycle get", *NODE, arg("node_name", "Name of the node (all managed nodes)", nargs="?"), HIDDEN_NODES)
 def get(args: Namespace, node: Node) -> None:
     """The state that a managed node is in."""
     known = _managed(node, args.include_hidden_nodes)
@@ -120,13 +112,7 @@ def get(args: Namespace, node: Node) -> None:
             print(f"{name}: {state.label} [{state.id}]")
 
 
-@graph_verb(
-    "lifecycle list",
-    *NODE,
-    _MANAGED,
-    HIDDEN_NODES,
-    flag("-a --all", "All transitions, not only those that are possible now"),
-)
+@graph_verb("lifecycle list", *OF_NODE, flag("-a --all", "All transitions, not only those that are possible now"))
 def list_transitions(args: Namespace, node: Node) -> None:
     """The transitions that are possible now."""
     name = find_node(node, args, _managed(node, args.include_hidden_nodes))
@@ -140,13 +126,7 @@ def _transitions(node: Node, node_name: str, service: str) -> list[Any]:
     return ask(node, node_name, "lifecycle_msgs/srv/GetAvailableTransitions", service).available_transitions
 
 
-@graph_verb(
-    "lifecycle set",
-    *NODE,
-    _MANAGED,
-    HIDDEN_NODES,
-    arg("transition", "Label or number of the transition, such as configure"),
-)
+@graph_verb("lifecycle set", *OF_NODE, arg("transition", "Label or number of the transition, such as configure"))
 def set_state(args: Namespace, node: Node) -> None:
     """Trigger a transition of a managed node."""
     name = find_node(node, args, _managed(node, args.include_hidden_nodes))

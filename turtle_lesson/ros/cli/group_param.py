@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .arguments import HIDDEN_NODES, NODE, arg, flag
+from .arguments import HIDDEN_NODES, NODE, OF_NODE, arg, flag
 from .typed_values import MAX_LENGTH, Unparsable, read_yaml
 from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
 
@@ -78,9 +78,6 @@ def flat(tree: dict[Any, Any], prefix: str = "") -> list[tuple[str, Any]]:
 
 # -- what the verbs share --------------------------------------------------------------------------------------------
 
-OF_NODE = (*NODE, arg("node_name", "Name of the node, such as /turtlesim"), HIDDEN_NODES)
-"""The arguments of every verb of `ros2 param`."""
-
 PARAMETER = arg("parameter_name", "Name of the parameter")
 
 
@@ -139,9 +136,7 @@ def _read_file(path: str, node_name: str) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         raise CommandError(str(error)) from None
     if not isinstance(content, dict):
-        raise CommandError(
-            f"{path} is not a parameter file: expected a line '{node_name}:' and ros__parameters below it"
-        )
+        raise CommandError(f"{path} is not a parameter file: it has no '{node_name}:' with ros__parameters below it")
     keys = [key for key in ("/**", node_name) if key in content]
     if not keys:
         raise CommandError(

@@ -204,15 +204,11 @@ def _where_is(base: str) -> str:
     return f"Did you mean {' or '.join(map(repr, found[:3]))}?" if found else ""
 
 
-@verb(
-    "interface show",
-    TYPE,
-    either(
-        flag("--all-comments", "also show the comments of nested types"),
-        flag("--no-comments", "show neither comments nor empty lines"),
-    ),
-    in_cell=True,
-)
+ALL_COMMENTS = flag("--all-comments", "also show the comments of nested types")
+NO_COMMENTS = flag("--no-comments", "show neither comments nor empty lines")
+
+
+@verb("interface show", TYPE, either(ALL_COMMENTS, NO_COMMENTS), in_cell=True)
 def _show(args: Namespace) -> None:
     """Print the definition of an interface."""
     _check(args.type)

@@ -65,10 +65,8 @@ def _run(args: Namespace) -> int:
     if isinstance(target, Path) and not target.is_file():
         raise CommandError("No executable found", f"{target} no longer exists: build again.")
     if changed := changed_since_built(package):
-        print(
-            f"{shown_path(str(changed))} was changed after the build: run colcon build to use the new version.",
-            file=sys.stderr,
-        )
+        new = "was changed after the build: run colcon build to use the new version."
+        print(shown_path(str(changed)), new, file=sys.stderr)
     process = world.spawn(
         target,
         name=name,
@@ -111,11 +109,7 @@ NOTHING = "accepted, but without effect here"
         flag("-p --print --print-description", "not available here", dest="print"),
         flag("-s --show-args --show-arguments", "list the arguments it takes", dest="show"),
     ),
-    flag(
-        "-a --show-all-subprocesses-output",
-        "show all that the programs print, whatever the launch file says",
-        dest="all",
-    ),
+    flag("-a --show-all-subprocesses-output", "show all that programs print, whatever the file says", dest="all"),
     arg("--launch-prefix", NOTHING),
     arg("--launch-prefix-filter", NOTHING),
     duration(LET_PASS.format("ros2 launch")),

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 
 
 PRESET = "system_default"
+TIMES = arg("-t --times", "Publish this many messages", type=unsigned_int, default=0)
 
 
 @verb(
@@ -55,22 +56,9 @@ PRESET = "system_default"
     arg("values", "Values for its fields, in YAML, as in '{data: hello}'", nargs="?", default="{}"),
     arg("-r --rate", "How often a second (1)", metavar="N", type=frequency, default=1.0),
     arg("-p --print", "Print only every N-th message (1)", metavar="N", type=int, default=1),
-    either(
-        flag("-1 --once", "Publish one message"),
-        arg("-t --times", "Publish this many messages", type=unsigned_int, default=0),
-    ),
-    arg(
-        "-w --wait-matching-subscriptions",
-        "Wait for this many subscriptions first (1 with --once or --times, else 0)",
-        type=unsigned_int,
-    ),
-    arg(
-        "--keep-alive",
-        "Stay for this many seconds after the last message (0.1)",
-        metavar="N",
-        type=seconds,
-        default=0.1,
-    ),
+    either(flag("-1 --once", "Publish one message"), TIMES),
+    arg("-w --wait-matching-subscriptions", "Wait for so many first (1 with -1 or -t, else 0)", type=unsigned_int),
+    arg("--keep-alive", "Seconds to stay after the last message (0.1)", metavar="N", type=seconds, default=0.1),
     arg("-n --node-name", "Name of the node that publishes"),
     *qos_arguments("publish", PRESET, automatic=False),
     *NODE_WITHOUT_DAEMON,
@@ -145,9 +133,8 @@ def _why_too_few(node: Node, publisher: Publisher, needed: int) -> tuple[str, st
     waited = f"Gave up after {PATIENCE:g} s of robot time"
     if not there:
         others = [each for each in topics(node, include_hidden=True) if subscriptions(node, each)]
-        return f"{waited}: no node subscribes to {name}", suggest(
-            name, others
-        ) or "With -w 0 the command does not wait."
+        hint = suggest(name, others) or "With -w 0 the command does not wait."
+        return f"{waited}: no node subscribes to {name}", hint
     types = sorted({each.topic_type for each in there})
     if kind not in types:
         return f"{waited}: the subscription of {name} is of type {', '.join(types)}, not {kind}", ""
@@ -186,12 +173,7 @@ def list_topics(args: Namespace, node: Node) -> None:
         print()
 
 
-@graph_verb(
-    "topic info",
-    *NODE,
-    name_argument("topic", EXAMPLES[0]),
-    flag("--verbose -v", "Show every publisher and subscription, with QoS"),
-)
+@graph_verb("topic info", *NODE, name_argument("topic", EXAMPLES[0]), flag("--verbose -v", "Show each end, with QoS"))
 def info(args: Namespace, node: Node) -> None:
     """A topic's type, its publishers and its subscriptions."""
     name = args.topic_name

@@ -58,18 +58,17 @@ def run(
             call.arguments.stdin = stdin
             with contextlib.redirect_stdout(out_to), contextlib.redirect_stderr(error_to):
                 return call.verb.main(call.arguments)
+        main = partial(_main, call)
         if background:
             out, error = lasting(out_to, world.sim), lasting(error_to, world.sim)
-            process = world.spawn(partial(_main, call), name="ros2", argv=words, stdout=out, stderr=error)
+            process = world.spawn(main, name="ros2", argv=words, stdout=out, stderr=error)
             process.state(Invocation).background = True
             job = jobs(world).add(" ".join(words), process)
             print(f"[{job.number}] {process.pid}")
             world.sim.settle()
             return 0
         waiter = Waiter(world, call.verb.prog)
-        process = world.spawn(
-            partial(_main, call), name="ros2", argv=words, stdout=out_to, stderr=error_to, on_exit=waiter.ended
-        )  # fmt: skip
+        process = world.spawn(main, name="ros2", argv=words, stdout=out_to, stderr=error_to, on_exit=waiter.ended)
         process.state(Invocation).shown = out_to is sys.stdout
         reason = waiter.wait(process)
         if reason:

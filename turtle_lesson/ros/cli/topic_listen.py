@@ -8,6 +8,7 @@ from argparse import Namespace
 from array import array
 from collections import deque
 from collections.abc import Callable, Collection
+from itertools import pairwise
 from math import sqrt
 from typing import TYPE_CHECKING, Any
 
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 
-TRUNCATE = 128
 PRESET = "sensor_data"
 
 
@@ -51,24 +51,14 @@ PRESET = "sensor_data"
     flag("--csv", "Print each message as one line, with commas between values"),
     arg("--field", "Print only this field; a dot leads to a field of a field, as in header.stamp"),
     flag("--full-length -f", "Do not cut off long arrays and texts"),
-    arg(
-        "--truncate-length -l",
-        "How much of long arrays and texts is printed (default: %(default)s)",
-        type=unsigned_int,
-        default=TRUNCATE,
-    ),
+    arg("--truncate-length -l", "How much of them is printed (default: 128)", type=unsigned_int, default=128),
     flag("--no-arr", "Print the type and length of arrays instead of them"),
     flag("--no-str", "Print the length of texts instead of them"),
     flag("--flow-style", "Print an array in one line, in brackets"),
     flag("--lost-messages", "Deprecated, and without effect"),
     flag("--no-lost-messages", "Do not report lost messages"),
     flag("--raw", "Print the bytes as they are sent"),
-    arg(
-        "--filter",
-        "Print a message m only where this Python expression is true, as in 'm.x > 5'",
-        dest="filter_expr",
-        metavar="FILTER_EXPR",
-    ),
+    arg("--filter", "Print a message m only where this is true in Python, as 'm.x > 5'", dest="filter_expr"),
     flag("--once", "End after the first message"),
     duration(),
 )
@@ -192,9 +182,8 @@ def why_silent(node: Node, topic: str, kind: Any, seconds: float) -> tuple[str, 
         return f"{waited}: it is of type {', '.join(sorted(types))}, not {kind._TYPE_NAME}", ""
     if any(each.get_publisher_count() for each in node.subscriptions if each.topic_name == name):
         return f"{waited}, although a node publishes it", "--for SECONDS waits longer."
-    return f"{waited}: its publishers do not offer the quality of service that was requested", (
-        f"`ros2 topic info -v {name}` shows what they offer."
-    )
+    hint = f"`ros2 topic info -v {name}` shows what they offer."
+    return f"{waited}: its publishers do not offer the quality of service that was requested", hint
 
 
 def listen(
@@ -263,34 +252,24 @@ def _now() -> int:
 def hz(args: Namespace) -> None:
     """How many messages a second arrive on a topic."""
     wanted = filter_of(args.filter_expr)
-    gaps: deque[int] = deque(maxlen=args.window)
-    last: int | None = None
-    printed: int | None = None
+    times: deque[int] = deque(maxlen=args.window + 1)
+    due = 0
 
     def count(message: Any) -> None:
-        nonlocal last, printed
+        nonlocal due
         if not wanted(message):
             return
-        time = _now()
-        if last is not None:
-            gaps.append(time - last)
-        last = time
-        if gaps and printed is None:
-            printed = time
-        elif printed is not None and time >= printed + SECOND:
-            printed = time
-            _print_times(lambda mean: f"average rate: {1 / mean if mean else 0:.3f}", gaps)
+        times.append(_now())
+        if len(times) > 1 and times[-1] >= due:
+            if due:
+                gaps = [after - before for before, after in pairwise(times)]
+                _print_times(lambda mean: f"average rate: {1 / mean if mean else 0:.3f}", gaps)
+            due = times[-1] + SECOND
 
     _measure(args, args.topic_name, count)
 
 
-@verb(
-    "topic bw",
-    arg("topic", "Name of the topic, such as /turtle1/pose"),
-    _window(100),
-    *NODE_WITHOUT_DAEMON,
-    duration(),
-)
+@verb("topic bw", arg("topic", "Name of the topic"), _window(100), *NODE_WITHOUT_DAEMON, duration())
 def bw(args: Namespace) -> None:
     """How many bytes a second arrive on a topic."""
     heard: deque[tuple[int, int]] = deque(maxlen=args.window)  # when (ns), and how many bytes
@@ -314,13 +293,7 @@ def _bytes(size: float, rate: float) -> str:
     return f"{size / 1e3:.2f} KB" if rate < 1e6 else f"{size / 1e6:.2f} MB"
 
 
-@verb(
-    "topic delay",
-    arg("topic", "Name of the topic, whose messages have a header"),
-    _window(10_000),
-    *NODE_WITHOUT_DAEMON,
-    duration(),
-)
+@verb("topic delay", arg("topic", "Topic of messages with a header"), _window(10_000), *NODE_WITHOUT_DAEMON, duration())
 def delay(args: Namespace) -> None:
     """How old the messages of a topic are when they arrive, judged by the stamp in their header."""
     ages: deque[int] = deque(maxlen=args.window)

@@ -205,9 +205,7 @@ def ask(node: Node, name: str, kind: str, service: str = "", **request: Any) -> 
         raise CommandError(f"Wait for service timed out: {name} offers no {service}")
     future = client.call_async(made.Request(**request))
     if not spin_for(node, PATIENCE, future):
-        raise CommandError(
-            f"No answer from {name} in {PATIENCE:g} s of robot time: is it busy in a callback, or not spinning?"
-        )
+        raise CommandError(f"No answer from {name} in {PATIENCE:g} s of robot time: is it busy, or not spinning?")
     return future.result()
 
 

@@ -53,9 +53,7 @@ def attribute_advice(error: BaseException) -> str:
     text, owner, name = str(error), error.obj, error.name or ""
     if match := re.match(r"property '(\w+)' of '\w+' object has no setter", text):
         taken = match[1]
-        return (
-            f"Every node already has {taken!r}, which cannot be replaced: choose another name, as in self.my_{taken}."
-        )
+        return f"Every node has {taken!r}, which cannot be replaced: choose another name, as in self.my_{taken}."
     if text.startswith("the simulated module 'rclpy' has no"):
         return _in_ros_2(name) or ("" if "did you mean" in text else _like(name, dir(sys.modules["rclpy"])))
     if not name and (match := re.match(r"'(\w+)' object has no attribute '(\w+)'", text)):
