@@ -64,7 +64,7 @@ def test_words(line: str, words: list[str]) -> None:
 
 
 def test_signs_between_commands() -> None:
-    found = [token.text for token in tokens("a&&b||c;d&e|f>g>>h\ni 2>j 2>&1") if isinstance(token, Operator)]
+    found = [token for token in tokens("a&&b||c;d&e|f>g>>h\ni 2>j 2>&1") if isinstance(token, Operator)]
     assert found == ["&&", "||", ";", "&", "|", ">", ">>", "\n", "2>", "2>&1"]
 
 

@@ -49,18 +49,12 @@ class Word:
     pattern: str
 
 
-@dataclass(frozen=True)
-class Operator:
+class Operator(str):
     """A sign such as `&&`."""
 
-    text: str
 
-
-@dataclass(frozen=True)
-class HereText:
+class HereText(str):
     """The lines between `<<END` and END, which a command is given to read."""
-
-    text: str
 
 
 class BackslashAtEndError(UnfinishedError):
@@ -86,9 +80,9 @@ def command_end(text: str, at: int = 0) -> int:
     before: Token | None = None
     with contextlib.suppress(BackslashAtEndError):
         for token, left in _scan(text, at):
-            if token != Operator("\n"):
+            if token != "\n":
                 before = token
-            elif before not in (Operator("&&"), Operator("||"), Operator("|")):
+            elif before not in ("&&", "||", "|"):
                 return len(text) - left
     return len(text)
 
@@ -154,17 +148,12 @@ class ShellSyntaxError(ValueError):
 
 @dataclass
 class Command:
-    """One simple command: its words, and where its input and output go."""
+    """One simple command: its words, the text that it is given to read, and signs such as `>`, each with its file."""
 
     words: list[Word] = field(default_factory=list)
     given: str | None = None
-    stdin: Word | None = None
-    stdout: tuple[str, Word] | None = None
-    stderr: Word | None = None
+    redirections: list[tuple[Operator, Word]] = field(default_factory=list)
     background: bool = False
-
-
-TO_STDOUT = Word("&1", "&1")
 
 
 def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
@@ -176,28 +165,20 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
         if isinstance(token, Word):
             command.words.append(token)
         elif isinstance(token, HereText):
-            command.given = token.text
-        elif token.text == "2>&1":
-            command.stderr = TO_STDOUT
-        elif token.text in {">", ">>", "2>", "&>", "<"}:
-            file = next(rest)
+            command.given = token
+        elif token in {"<", ">", ">>", "2>", "&>", "2>&1"}:
+            file = Word("&1", "&1") if token == "2>&1" else next(rest)
             if not isinstance(file, Word):
-                raise ShellSyntaxError(f"{'<' if token.text == '<' else '>'!r} needs the name of a file")
-            if token.text == "<":
-                command.stdin = file
-            elif token.text == "2>":
-                command.stderr = file
-            else:
-                command.stdout = (token.text, file)
-                command.stderr = TO_STDOUT if token.text == "&>" else command.stderr
-        elif command.words and token.text == "|":
+                raise ShellSyntaxError(f"{token!r} needs the name of a file")
+            command.redirections.append((token, file))
+        elif command.words and token == "|":
             pipeline.append(Command())
         elif command.words:
-            command.background = token.text == "&"
+            command.background = token == "&"
             yield condition, pipeline
-            condition, pipeline = token.text if token.text in {"&&", "||"} else "", [Command()]
-        elif token.text != "\n":
-            raise ShellSyntaxError(f"there is no command before {token.text!r}")
+            condition, pipeline = token if token in {"&&", "||"} else "", [Command()]
+        elif token != "\n":
+            raise ShellSyntaxError(f"there is no command before {token!r}")
         elif len(pipeline) > 1:
             raise ShellSyntaxError("there is no command after '|'")
     if condition:

@@ -27,7 +27,6 @@ from .jobs import Terminal, before_a_command, cell_streams, export, set_for_now
 from .run_command import run as run_ros2
 from .script import (
     NOT_EXECUTABLE,
-    TO_STDOUT,
     Command,
     ShellSyntaxError,
     UnfinishedError,
@@ -119,15 +118,16 @@ class Shell:
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
         words = [text for word in command.words for text in self._expand(word)]
         try:
-            if command.stdin is not None:
-                given = Path(self._file_name(command.stdin)).read_text(encoding="utf-8")
-            to = out
-            if command.stdout is not None:
-                sign, word = command.stdout
-                to = _file(self._file_name(word), "a" if sign == ">>" else "w", out)
-            if command.stderr is not None:
-                error = to if command.stderr == TO_STDOUT else _file(self._file_name(command.stderr), "w", error)
-            return self._call(words, given, to, error, command.background) if words else 0
+            for sign, word in command.redirections:
+                if sign == "<":
+                    given = Path(self._file_name(word)).read_text(encoding="utf-8")
+                elif sign == "2>":
+                    error = _file(self._file_name(word), "w", error)
+                elif sign != "2>&1":
+                    out = _file(self._file_name(word), "a" if sign == ">>" else "w", out)
+                if sign in {"2>&1", "&>"}:
+                    error = out
+            return self._call(words, given, out, error, command.background) if words else 0
         except (OSError, ValueError, re.error) as mistake:  # said without Python's numbers
             text = str(mistake)
             if isinstance(mistake, OSError) and mistake.strerror:
