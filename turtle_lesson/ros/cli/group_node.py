@@ -148,50 +148,31 @@ def set_state(args: Namespace, node: Node) -> None:
 @graph_verb("doctor", flag("-r --report", "also list nodes, topics, services and jobs"))
 def _doctor(args: Namespace, node: Node) -> None:
     """Describe this simulation, what is running, and what looks wrong."""
-    _introduce(node)
-    if args.report:
-        _report(node)
-    complaints = _complaints(node)
-    for text in complaints:
-        print(f"WARNING: {text}", file=sys.stderr)
-    print("\nAll 2 checks passed" + (f", with {_counted(complaints, 'warning')}" if complaints else ""))
-
-
-def _introduce(node: Node) -> None:
-    world = current_world()
+    world, names, known = current_world(), node_names(node), topics(node)
+    up = {"node": names, "topic": with_types(known), "service": with_types(services(node))}
+    packages = world.packages.names()
     print("This is Turtle Lesson's simulation of a robot's computer, with no ROS 2 installed.")
     print(f"It behaves as ROS 2 {world.release.title} does. Robot time {(world.now / 1e9):.1f} s, seed {world.seed}.")
-    packages = world.packages.names()
-    up = [_counted(node_names(node), "node"), _counted(topics(node), "topic"), _counted(services(node), "service")]
-    print(f"Up: {', '.join(up)}. {_counted(packages, 'package')} with programs: {', '.join(packages) or 'none'}.")
-
-
-def _counted(things: Sized, name: str) -> str:
-    return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
-
-
-def _report(node: Node) -> None:
-    lists = {
-        "NODES": node_names(node),
-        "TOPICS": with_types(topics(node)),
-        "SERVICES": with_types(services(node)),
-        "JOBS": [f"%{job.number} {job.words}" for job in jobs(current_world()).running],
-    }
-    for title, lines in lists.items():
-        print(f"\n   {title}")
-        print("\n".join(lines) or "none")
-
-
-def _complaints(node: Node) -> list[str]:
-    """Names that several nodes have, and topics that only have one side, as the real doctor tells them."""
-    counts = Counter(node_names(node))
-    found = [f"{count} nodes share the name {name}" for name, count in counts.items() if count > 1]
-    for name in sorted(topics(node).keys() - {"/rosout", "/parameter_events"}):
+    print(f"Up: {', '.join(_counted(lines, what) for what, lines in up.items())}.", end=" ")
+    print(f"{_counted(packages, 'package')} with programs: {', '.join(packages) or 'none'}.")
+    if args.report:
+        for what, lines in (*up.items(), ("job", [f"%{job.number} {job.words}" for job in jobs(world).running])):
+            print(f"\n   {what.upper()}S")
+            print("\n".join(lines) or "none")
+    # names that several nodes have, and topics that only have one side, as the real doctor tells them
+    found = [f"{count} nodes share the name {name}" for name, count in Counter(names).items() if count > 1]
+    for name in sorted(known.keys() - {"/rosout", "/parameter_events"}):
         if not node.count_subscribers(name):
             found.append(f"Publisher without subscriber detected on {name}.")
         if not node.count_publishers(name):
             found.append(f"Subscriber without publisher detected on {name}.")
-    return found
+    for text in found:
+        print(f"WARNING: {text}", file=sys.stderr)
+    print("\nAll 2 checks passed" + (f", with {_counted(found, 'warning')}" if found else ""))
+
+
+def _counted(things: Sized, name: str) -> str:
+    return f"{len(things)} {name}{'' if len(things) == 1 else 's'}"
 
 
 # -- daemon ------------------------------------------------------------------------------------------------------------

@@ -54,11 +54,7 @@ PROGRAMS = ("ros2", "colcon", "source", ".")
 
 
 class CommandInterrupted(KeyboardInterrupt):
-    """The user has stopped a command: what comes after it is not carried out. `code` is its exit code."""
-
-    def __init__(self, words: Sequence[str]) -> None:
-        super().__init__(f"{cut(' '.join(words), 100)} was stopped, and no command after it was run")
-        self.code = INTERRUPTED if words[0] == "ros2" else STOPPED
+    """The user has stopped a command: what comes after it is not carried out."""
 
 
 @dataclass
@@ -69,7 +65,7 @@ class _Last:
 
 
 class Shell:
-    """Runs scripts in a world."""
+    """Runs scripts in a world, and knows the exit code of the last command of its terminal."""
 
     def __init__(self, world: World) -> None:
         self.world = world
@@ -80,14 +76,11 @@ class Shell:
         """The exit code of the last command of this world's terminal."""
         return self._last.exit_code
 
-    def run(self, script: str) -> int:
+    def run(self, script: str, out: Any, error: Any) -> int:
         """Run a script of one line or several; a failing command prints and does not raise.
 
         Raises CommandInterrupted if the user stops a command.
         """
-        return self._script(script, *cell_streams())
-
-    def _script(self, script: str, out: Any, error: Any) -> int:
         try:
             plan = list(pipelines(tokens(script)))
         except (UnfinishedError, ShellSyntaxError) as mistake:
@@ -95,25 +88,15 @@ class Shell:
             self._last.exit_code = SYNTAX
             return SYNTAX
         for condition, pipeline in plan:
-            failed = self.exit_code != 0
-            if (condition == "&&" and failed) or (condition == "||" and not failed):
+            if condition and (condition == "||") != bool(self.exit_code):
                 continue
-            try:
-                self._last.exit_code = self._pipeline(pipeline, out, error)
-            except CommandInterrupted as stop:
-                self._last.exit_code = stop.code
-                raise
+            given, code = None, 0
+            for command in pipeline:
+                target = out if command is pipeline[-1] else io.StringIO()
+                code = self._one(command, given if command.given is None else command.given, target, error)
+                given = target.getvalue() if target is not out else None
+            self._last.exit_code = code
         return self.exit_code
-
-    def _pipeline(self, commands: list[Command], out: Any, error: Any) -> int:
-        handed_on: str | None = None
-        code = 0
-        for number, command in enumerate(commands):
-            last = number == len(commands) - 1
-            target = out if last else io.StringIO()
-            code = self._one(command, handed_on if command.given is None else command.given, target, error)
-            handed_on = None if last else target.getvalue()
-        return code
 
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
         words = [text for word in command.words for text in self._expand(word)]
@@ -135,7 +118,9 @@ class Shell:
             print(f"{cut(words[0] if words else 'bash', 40)}: {cut(text, 300)}", file=error)
             return 1
         except KeyboardInterrupt:
-            raise CommandInterrupted(words) from None
+            self._last.exit_code = INTERRUPTED if words[0] == "ros2" else STOPPED
+            stopped = f"{cut(' '.join(words), 100)} was stopped, and no command after it was run"
+            raise CommandInterrupted(stopped) from None
 
     def _expand(self, word: Word) -> list[str]:
         return expand(word, home=files.home(), exit_code=self.exit_code)
@@ -159,7 +144,7 @@ class Shell:
             return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
         if (script := commands_in(words)) is not None:
             with contextlib.nullcontext() if name in {"source", "."} else contextlib.chdir("."):
-                return self._script(script, out, error)
+                return self.run(script, out, error)
         if name in {"colcon", "source", "."}:
             from ..ament import source
             from . import colcon
@@ -167,8 +152,7 @@ class Shell:
             run = colcon.run if name == "colcon" else source.source
             return run(self.world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())
         if "/" in name and (program := self.world.packages.program_at(name)):
-            words = ["ros2", "run", *program, *words[1:]]
-            return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
+            return self._call(["ros2", "run", *program, *words[1:]], given, out, error, background)
         try:
             if (whole := with_its_program(words)) != list(words):
                 return self._call(whole, given, out, error, background)
@@ -205,6 +189,6 @@ def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
 
 
 def run_line(world: World, script: str) -> int:
-    """Run a script in a world and return the exit code of its last command."""
+    """Run a script in a world, in the running cell, and return the exit code of its last command."""
     sys.stdout.flush()
-    return Shell(world).run(script)
+    return Shell(world).run(script, *cell_streams())
