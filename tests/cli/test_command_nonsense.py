@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import re
 from pathlib import Path
@@ -89,7 +90,8 @@ def test_anything_is_answered(tmp_path: Path, words: list[str]) -> None:
     try:
         system.start(world, system.talker, system.param_demo)
         begun = world.now
-        code = run(world, words, stdout=out, stderr=error, cwd=tmp_path)
+        with contextlib.chdir(tmp_path):
+            code = run(world, words, stdout=out, stderr=error)
         took = (world.now - begun) / 1e9
     finally:
         world.close()

@@ -404,13 +404,6 @@ def test_doctor_finds_twins_and_lonely_topics(world: World) -> None:
     ]
 
 
-def test_a_command_works_in_the_folder_that_it_is_given(world: World, folder: Path) -> None:
-    (folder / "src").mkdir()
-    assert run(world, ["ros2", "pkg", "create", "x"], cwd=folder / "src") == 0
-    assert (folder / "src" / "x" / "package.xml").is_file()
-    assert Path.cwd() == folder
-
-
 def test_what_can_never_end_is_ended_and_explained(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
     def wait(args: object) -> int:
         import rclpy

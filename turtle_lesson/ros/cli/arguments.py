@@ -7,6 +7,7 @@ import sys
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -24,13 +25,12 @@ OURS = ("--for",)
 WIDTH = 78
 
 
+@dataclass(eq=False)
 class Stop(Exception):
     """The words ask for no verb: a text is to be printed instead, help (code 0) or, on stderr, a usage error (code 2)."""
 
-    def __init__(self, text: str, code: int) -> None:
-        super().__init__(text, code)
-        self.text = text
-        self.code = code
+    text: str
+    code: int
 
     def print(self, stdout: Output, stderr: Output) -> int:
         """Print the text where it belongs; returns the exit code."""

@@ -59,13 +59,6 @@ class Job:
         """Whether it has not ended."""
         return self.what.alive if isinstance(self.what, Process) else self.what.running
 
-    def signal(self, name: str) -> None:
-        """Send it INT (Ctrl-C), TERM or KILL."""
-        if isinstance(self.what, Process):
-            send(self.what, name)
-        else:
-            self.what.stop()
-
 
 @dataclass
 class LastSignal:
@@ -74,13 +67,15 @@ class LastSignal:
     name: str = ""
 
 
-def send(process: Process, name: str) -> None:
-    """Send a process INT (Ctrl-C), TERM or KILL."""
-    if name == "INT":
-        process.interrupt()
+def send(what: Process | LaunchHandle, name: str) -> None:
+    """Send a process INT (Ctrl-C), TERM or KILL; each of them stops a launch."""
+    if not isinstance(what, Process):
+        what.stop()
+    elif name == "INT":
+        what.interrupt()
     else:
-        process.state(LastSignal).name = name
-        process.kill()
+        what.state(LastSignal).name = name
+        what.kill()
 
 
 def jobs(world: World) -> Jobs:

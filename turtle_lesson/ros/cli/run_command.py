@@ -15,14 +15,14 @@ from functools import cached_property, partial
 from importlib import import_module
 from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TextIO, cast
 
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
 from ..launching.commands import UnknownCommand
 from ..runtime.world import Waiter, current_process
 from .arguments import WIDTH, Stop, cut
-from .jobs import Errors, cell_streams, jobs, lasting
+from .jobs import Errors, jobs, lasting
 from .script import ShellSyntaxError, UnfinishedError, expand, pipelines, tokens
 from .verb import INTERRUPTED, VERBS, Invocation, Verb
 
@@ -35,45 +35,41 @@ def run(
     world: World,
     words: Sequence[str],
     *,
+    stdout: Output,
+    stderr: Output,
     stdin: str | None = None,
-    stdout: Output | None = None,
-    stderr: Output | None = None,
-    cwd: Path | None = None,
     background: bool = False,
 ) -> int:
     """Run one command, such as `["ros2", "topic", "list"]`, and return its exit code.
 
-    It reads and prints in the running cell, unless told otherwise. With `background` (`&`) it goes on while the world runs, and
-    0 is returned at once. Raises KeyboardInterrupt if the user stops it.
+    With `background` (`&`) it goes on while the world runs, and 0 is returned at once. Raises KeyboardInterrupt if the user
+    stops it.
     """
-    out_to: Any = sys.stdout if stdout is None else stdout
-    error_to = Errors(cell_streams()[1] if stderr is None else stderr)
-    folder = contextlib.chdir(cwd) if cwd is not None else contextlib.nullcontext()
-    with folder:
-        try:
-            call = parse(words[1:])
-        except Stop as stop:
-            return stop.print(out_to, error_to)
-        if call.verb.in_cell:
-            call.arguments.stdin = stdin
-            with contextlib.redirect_stdout(out_to), contextlib.redirect_stderr(error_to):
-                return call.verb.main(call.arguments)
-        main = partial(_main, call)
-        if background:
-            out, error = lasting(out_to, world.sim), lasting(error_to, world.sim)
-            process = world.spawn(main, name="ros2", argv=words, stdout=out, stderr=error)
-            process.state(Invocation).background = True
-            job = jobs(world).add(" ".join(words), process)
-            print(f"[{job.number}] {process.pid}")
-            world.sim.settle()
-            return 0
-        waiter = Waiter(world, call.verb.prog)
-        process = world.spawn(main, name="ros2", argv=words, stdout=out_to, stderr=error_to, on_exit=waiter.ended)
-        process.state(Invocation).shown = out_to is sys.stdout
-        reason = waiter.wait(process)
-        if reason:
-            print(f"{call.verb.prog}: {reason}", file=error_to)
-        return process.exit_code or 0
+    errors = Errors(stderr)
+    try:
+        call = parse(words[1:])
+    except Stop as stop:
+        return stop.print(stdout, errors)
+    if call.verb.in_cell:
+        call.arguments.stdin = stdin
+        with contextlib.redirect_stdout(cast("TextIO", stdout)), contextlib.redirect_stderr(cast("TextIO", errors)):
+            return call.verb.main(call.arguments)
+    main = partial(_main, call)
+    if background:
+        out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
+        process = world.spawn(main, name="ros2", argv=words, stdout=out, stderr=error)
+        process.state(Invocation).background = True
+        job = jobs(world).add(" ".join(words), process)
+        print(f"[{job.number}] {process.pid}")
+        world.sim.settle()
+        return 0
+    waiter = Waiter(world, call.verb.prog)
+    process = world.spawn(main, name="ros2", argv=words, stdout=stdout, stderr=errors, on_exit=waiter.ended)
+    process.state(Invocation).shown = stdout is sys.stdout
+    reason = waiter.wait(process)
+    if reason:
+        print(f"{call.verb.prog}: {reason}", file=errors)
+    return process.exit_code or 0
 
 
 def _main(call: Call) -> None:

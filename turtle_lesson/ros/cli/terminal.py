@@ -8,16 +8,12 @@ import shutil
 from collections.abc import Iterable
 from errno import EINVAL, EISDIR
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.world import run_for
 from ..sim.errors import shown_path
-from .jobs import SIGNALS, Builtin, Job, Terminal, export, jobs, options, printenv, send, unset
-
-if TYPE_CHECKING:
-    from ..sim.process import Process
+from .jobs import SIGNALS, Builtin, Terminal, export, jobs, options, printenv, send, unset
 
 # -- folders -----------------------------------------------------------------------------------------------------------
 
@@ -263,17 +259,13 @@ def kill(terminal: Terminal, words: list[str]) -> int:
         raise ValueError("which one? `jobs` lists what is running; kill -INT %1 is Ctrl-C for the first")
     code = 0
     for word in words:
-        running: dict[str, Job | Process] = {f"%{job.number}": job for job in jobs(terminal.world).running}
-        running |= {str(process.pid): process for process in terminal.world.processes if process.alive}
-        target = running.get(word)
+        running = {str(process.pid): process for process in terminal.world.processes if process.alive}
+        target = {**running, **{f"%{job.number}": job.what for job in jobs(terminal.world).running}}.get(word)
         if target is None:
             code = terminal.fail(f"kill: {word[:60]}: no such job or process. `jobs` lists what is running")
-            continue
-        if isinstance(target, Job):
-            target.signal(name)
         else:
             send(target, name)
-        terminal.world.sim.settle()
+            terminal.world.sim.settle()
     return code
 
 

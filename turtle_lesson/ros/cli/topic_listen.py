@@ -16,7 +16,7 @@ from ..runtime.world import current_process
 from ..sim.simulation import EPOCH
 from ..sim.simulation import NANOSECONDS as SECOND
 from .arguments import NODE, NODE_WITHOUT_DAEMON, Argument, arg, duration, flag, positive_int, unsigned_int
-from .typed_values import class_of, is_chosen, matching_profile, profile_of, qos_arguments
+from .typed_values import class_of, matching_profile, qos_arguments
 from .verb import (
     CommandError,
     Interrupted,
@@ -96,7 +96,7 @@ def echo(args: Namespace) -> None:
         print(f"A message was lost!!!\n\t{counts}", end="---\n")
 
     with direct_node(args) as node:
-        profile = profile_of(args, PRESET) if is_chosen(args) else matching_profile(node, args.topic_name, PRESET)
+        profile = matching_profile(node, args.topic_name, args, PRESET)
         kind = class_of(args.message_type, "msg") if args.message_type else class_of_topic(node, args.topic_name)
         if kind is None:
             print(NOT_PUBLISHED.format(args.topic_name))

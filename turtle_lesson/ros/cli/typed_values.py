@@ -220,12 +220,6 @@ def qos_arguments(use: str, preset: str, *, automatic: bool) -> tuple[Argument, 
     )
 
 
-def is_chosen(args: Namespace) -> bool:
-    """Whether any of the options was given."""
-    names = ("qos_profile", "qos_depth", "qos_history", "qos_reliability", "qos_durability")
-    return any(getattr(args, name) is not None for name in names)
-
-
 def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     """The profile that the options ask for; `defaults` are policies by short name, used if no preset was given."""
     from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSReliabilityPolicy
@@ -244,14 +238,16 @@ def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     return profile
 
 
-def matching_profile(node: Node, topic: str, preset: str) -> QoSProfile:
-    """The preset, changed so that a subscription hears every publisher that is there.
+def matching_profile(node: Node, topic: str, args: Namespace, preset: str) -> QoSProfile:
+    """What the options ask for; without any, the preset, changed so that a subscription hears every publisher that is there.
 
     A policy is the strong one if all of them offer it, else the weak one, which is said where some offer the strong one.
     """
     from rclpy.qos import QoSDurabilityPolicy, QoSReliabilityPolicy
 
-    profile = _preset(preset)
+    profile = profile_of(args, preset)
+    if any(value is not None for name, value in vars(args).items() if name.startswith("qos_")):
+        return profile
     offers = [info.qos_profile for info in node.get_publishers_info_by_topic(expanded(node, topic))]
     for name, strong, weak in (
         ("reliability", QoSReliabilityPolicy.RELIABLE, QoSReliabilityPolicy.BEST_EFFORT),

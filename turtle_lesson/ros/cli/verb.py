@@ -243,11 +243,10 @@ def node_names(node: Node, include_hidden: bool = False) -> list[str]:
 def find_node(node: Node, args: Namespace, known: list[str] | None = None) -> str:
     """The full name of the node that was named. Raises CommandError if it is not among those known, or there at all."""
     name, names = absolute(args.node_name), node_names(node, args.include_hidden_nodes)
-    if name in (names if known is None else known):
+    known = names if known is None else known
+    if name in known:
         return name
-    if name in names:
-        raise CommandError("Node not found", f"{name} is not a managed node.")
-    raise CommandError("Node not found", suggest(name, names if known is None else known))
+    raise CommandError("Node not found", f"{name} is not a managed node." if name in names else suggest(name, known))
 
 
 def topics(node: Node, include_hidden: bool = False, *, unused: bool = False) -> dict[str, list[str]]:
