@@ -15,7 +15,7 @@ from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMa
 
 from .. import launching
 from ..idl.names import is_hidden
-from ..idl.registry import FOLDERS, registry
+from ..idl.registry import registry
 from ..runtime.world import current_world
 from .cells import COMMANDS, inner_places
 from .group_pkg import package_names
@@ -35,8 +35,8 @@ def complete(world: World, line: str) -> list[str]:
         found = tokens(line)
     except UnfinishedError:
         return []
-    starts = [place + 1 for place, token in enumerate(found) if isinstance(token, Operator)]
-    words = [token.text for token in found[starts[-1] if starts else 0 :] if isinstance(token, Word)]
+    start = max((place + 1 for place, token in enumerate(found) if isinstance(token, Operator)), default=0)
+    words = [token.text for token in found[start:] if isinstance(token, Word)]
     begun = words.pop() if words and not line[-1:].isspace() else ""
     if not words or words[0] not in COMMANDS:
         return []
@@ -101,9 +101,8 @@ def _values(world: World, action: argparse.Action, given: Sequence[str], begun: 
         case "node" | "node_name":
             return [node.full_name for node in world.graph.nodes if not node.hidden]
         case "action_type" | "message_type" | "service_type" | "topic_type" | "type" as dest:
-            folders = {"action_type": ("action",), "service_type": ("srv",), "type": FOLDERS}.get(dest, ("msg",))
-            known = [name for name in interface_names() if name.split("/")[1] in folders]
-            return _own_type(world, first) or known
+            folder = {"action_type": "/action/", "service_type": "/srv/", "type": "/"}.get(dest, "/msg/")
+            return _own_type(world, first) or [name for name in interface_names() if folder in name]
         case "values" if len(given) > 1:
             return _default_values(given[1])
         case "parameter_name" | "parameter_names":
@@ -171,11 +170,9 @@ FEEDBACK = "/_action/feedback"
 def _own_type(world: World, name: str) -> list[str]:
     """The type of a topic, action or service that is there."""
     topics = world.graph.topics()
-    if name in topics:
-        return topics[name].types
-    if feedback := topics.get(f"{name}{FEEDBACK}"):
-        return [each.removesuffix("_FeedbackMessage") for each in feedback.types]
-    return world.graph.services().get(name, [])
+    topic = topics.get(name) or topics.get(f"{name}{FEEDBACK}")
+    types = topic.types if topic else world.graph.services().get(name, [])
+    return [each.removesuffix("_FeedbackMessage") for each in types]
 
 
 def _launch_arguments(world: World, given: Sequence[str]) -> list[str]:
@@ -194,11 +191,9 @@ def _parameters(world: World, name: str) -> list[str]:
     """The parameters of a node. Tab must not let time pass, so the node's services are not asked, as commands do."""
     from rclpy._state import RclpyState
 
-    for process in {entry.process for entry in world.graph.nodes}:
-        for node in process.state(RclpyState).nodes:
-            if node.get_fully_qualified_name() == absolute(name):
-                return list(node.list_parameters([], 0).names)
-    return []
+    nodes = [node for entry in world.graph.nodes for node in entry.process.state(RclpyState).nodes]
+    found = [node for node in nodes if node.get_fully_qualified_name() == absolute(name)]
+    return [each for node in found[:1] for each in node.list_parameters([], 0).names]
 
 
 def _default_values(type_name: str) -> list[str]:

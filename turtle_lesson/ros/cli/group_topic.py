@@ -60,7 +60,7 @@ TIMES = arg("-t --times", "Publish this many messages", type=unsigned_int, defau
     arg("-w --wait-matching-subscriptions", "Wait for so many first (1 with -1 or -t, else 0)", type=unsigned_int),
     arg("--keep-alive", "Seconds to stay after the last message (0.1)", metavar="N", type=seconds, default=0.1),
     arg("-n --node-name", "Name of the node that publishes"),
-    *qos_arguments("publish", PRESET, automatic=False),
+    *qos_arguments(PRESET, "reliable", "transient_local"),
     *NODE_WITHOUT_DAEMON,
     duration(),
 )

@@ -47,7 +47,7 @@ PRESET = "sensor_data"
     *NODE,
     arg("topic_name", "Name of the topic, such as /turtle1/pose"),
     arg("message_type", "Type of its messages, such as turtlesim/msg/Pose", nargs="?"),
-    *qos_arguments("subscribe", PRESET, automatic=True),
+    *qos_arguments(PRESET, "as the publishers offer", "as the publishers offer"),
     flag("--csv", "Print each message as one line, with commas between values"),
     arg("--field", "Print only this field; a dot leads to a field of a field, as in header.stamp"),
     flag("--full-length -f", "Do not cut off long arrays and texts"),

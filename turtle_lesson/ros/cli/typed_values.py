@@ -206,14 +206,13 @@ FALL_BACK = (
 )
 
 
-def qos_arguments(use: str, preset: str, *, automatic: bool) -> tuple[Argument, ...]:
-    """The options. `use`: subscribe or publish; `automatic`: defaults follow the publishers that are there."""
-    reliability, durability = ("as the publishers offer",) * 2 if automatic else ("reliable", "transient_local")
-    again = f"Whether lost messages are sent again; overrides the profile's (default: {reliability})"
-    late = f"Whether late subscriptions get earlier messages; overrides the profile's (default: {durability})"
+def qos_arguments(preset: str, reliability: str, durability: str) -> tuple[Argument, ...]:
+    """The options, whose help names these defaults."""
+    again = f"Whether lost messages are sent again (default: {reliability})"
+    late = f"Whether late subscriptions get earlier messages (default: {durability})"
     return (
-        arg("--qos-profile", f"Profile to {use} with (default: {preset})", choices=PRESETS),
-        arg("--qos-depth", "Length of the queue; overrides the profile's", metavar="N", type=depth),
+        arg("--qos-profile", f"Profile whose policies the other options change (default: {preset})", choices=PRESETS),
+        arg("--qos-depth", "Length of the queue", metavar="N", type=depth),
         arg("--qos-history", "Which messages the queue keeps (default: keep_last)", choices=HISTORIES),
         arg("--qos-reliability", again, choices=RELIABILITIES),
         arg("--qos-durability", late, choices=DURABILITIES),
@@ -222,16 +221,13 @@ def qos_arguments(use: str, preset: str, *, automatic: bool) -> tuple[Argument, 
 
 def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     """The profile that the options ask for; `defaults` are policies by short name, used if no preset was given."""
-    from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSReliabilityPolicy
+    from rclpy import qos
 
-    profile = _preset(args.qos_profile or preset)
+    profile = qos.QoSProfile(**vars(qos.QoSPresetProfiles.get_from_short_key(args.qos_profile or preset)))
     if (args.qos_depth or 0) > 0:
         profile.depth = args.qos_depth
-    for name, policy in (
-        ("history", QoSHistoryPolicy),
-        ("reliability", QoSReliabilityPolicy),
-        ("durability", QoSDurabilityPolicy),
-    ):
+    for policy in (qos.HistoryPolicy, qos.ReliabilityPolicy, qos.DurabilityPolicy):
+        name = policy.__name__.removesuffix("Policy").lower()
         chosen = getattr(args, f"qos_{name}") or (defaults.get(name) if args.qos_profile is None else None)
         if chosen:
             setattr(profile, name, policy.get_from_short_key(chosen))
@@ -259,10 +255,3 @@ def matching_profile(node: Node, topic: str, args: Namespace, preset: str) -> Qo
         if strong in offered and offered != {strong}:
             print(FALL_BACK.format(policy=f"QoS{type(strong).__name__}", strong=strong.name, weak=weak.name))
     return profile
-
-
-def _preset(name: str) -> QoSProfile:
-    """A profile of its own, which may be changed."""
-    from rclpy.qos import QoSPresetProfiles, QoSProfile
-
-    return QoSProfile(**vars(QoSPresetProfiles.get_from_short_key(name)))
