@@ -9,6 +9,7 @@ import sys
 import time
 from argparse import Namespace
 from collections.abc import Callable
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from .arguments import arg, duration, flag, frequency
@@ -128,8 +129,8 @@ def call(args: Namespace) -> None:
             print("waiting for service to become available...")
             if not client.wait_for_service(timeout_sec=PATIENCE):
                 raise _not_offered("service", name, kind._TYPE_NAME, services(node, include_hidden=True))
-        seconds = stretch_of(args) if args.rate else None
-        deadline = None if seconds is None else now() + seconds
+        seconds = stretch_of(args) or inf
+        deadline = now() + seconds
         while True:
             begun = now()
             stamp(setters, node)
@@ -143,10 +144,9 @@ def call(args: Namespace) -> None:
             if args.rate is None:
                 return
             following = begun + 1 / args.rate
-            if deadline is not None and seconds is not None and following >= deadline:
-                time.sleep(max(0.0, deadline - now()))
+            time.sleep(max(0.0, min(following, deadline) - now()))
+            if following >= deadline:
                 raise end_of_stretch(seconds)
-            time.sleep(max(0.0, following - now()))
 
 
 # -- action ------------------------------------------------------------------------------------------------------------

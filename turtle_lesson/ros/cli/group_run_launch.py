@@ -183,10 +183,8 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         for twin in (each for each in jobs(world).running if each is not job and each.words == job.words):
             twice = f"The same command is running as [{twin.number}], so everything in it exists twice now."
             print(f"{twice} To stop that one: kill -INT %{twin.number}", file=cell)
-        if len(world.graph.servers("/spawn")) > simulators and any(
-            server.node.process.name == "turtlesim"
-            for server in world.graph.servers("/spawn")  # no job: start() began it
-        ):
+        servers = world.graph.servers("/spawn")
+        if len(servers) > simulators and any(each.node.process.name == "turtlesim" for each in servers):  # by start()
             twins = "Two simulators are running now, and both follow every command: start(simulator=False) starts none."
             print(twins, file=cell)
         return 0

@@ -27,7 +27,6 @@ from .verb import (
     end_of_stretch,
     expanded,
     graph_verb,
-    now,
     of_the_simulator,
     print_names,
     publishers,
@@ -106,14 +105,13 @@ def pub(args: Namespace) -> None:
 
 
 def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> None:
-    begun, looks = now(), 0
-    while _matched(node, publisher) < needed:
-        if now() - begun > PATIENCE - 0.05:
-            raise CommandError(*_why_too_few(node, publisher, needed))
-        if looks % 10 == 0:
+    for look in range(round(PATIENCE * 10)):
+        if _matched(node, publisher) >= needed:
+            return
+        if look % 10 == 0:
             print(f"Waiting for at least {needed} matching subscription(s)...")
-        looks += 1
         time.sleep(0.1)
+    raise CommandError(*_why_too_few(node, publisher, needed))
 
 
 def _matched(node: Node, publisher: Publisher) -> int:
