@@ -50,25 +50,16 @@ def cut(text: str, limit: int = 1500) -> str:
 
 
 class _Formatter(argparse.HelpFormatter):
-    """Help without the options that only we have in its usage line, and with an option's value once for each spelling."""
+    """Help without the options that only we have in its usage line."""
 
     def add_usage(self, usage: Any, actions: Iterable[argparse.Action], groups: Any, prefix: Any = None) -> None:
         """The usage line."""
         real = [action for action in actions if not set(OURS) & set(action.option_strings)]
         super().add_usage(usage, real, groups, prefix)
 
-    def _format_action_invocation(self, action: argparse.Action) -> str:
-        if not action.option_strings or action.nargs == 0:
-            return super()._format_action_invocation(action)
-        value = self._format_args(action, action.dest.upper())
-        return ", ".join(f"{option} {value}" for option in action.option_strings)
-
 
 class Parser(argparse.ArgumentParser):
-    """An ArgumentParser that raises `Stop` instead of printing and exiting.
-
-    Its help is laid out as by argparse of Python 3.11, 80 columns wide, whatever the Python and the terminal.
-    """
+    """An ArgumentParser that raises `Stop` instead of printing and exiting; its help is as wide in every terminal."""
 
     def __init__(self, prog: str, description: str, arguments: Iterable[Argument]) -> None:
         more: dict[str, Any] = {"color": False} if sys.version_info >= (3, 14) else {}

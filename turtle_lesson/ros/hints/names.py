@@ -54,8 +54,11 @@ def attribute_advice(error: BaseException) -> str:
     if match := re.match(r"property '(\w+)' of '\w+' object has no setter", text):
         taken = match[1]
         return f"Every node has {taken!r}, which cannot be replaced: choose another name, as in self.my_{taken}."
-    if text.startswith("the simulated module 'rclpy' has no"):
-        return _in_ros_2(name) or ("" if "did you mean" in text else _like(name, dir(sys.modules["rclpy"])))
+    of_rclpy = text.startswith("the simulated module 'rclpy' has no")
+    if name in _IN_ROS_2 and (of_rclpy or hasattr(owner, "create_publisher")):
+        return f"Here it is: {_IN_ROS_2[name]}."
+    if of_rclpy:
+        return "" if "did you mean" in text else _like(name, dir(sys.modules["rclpy"]))
     if not name and (match := re.match(r"'(\w+)' object has no attribute '(\w+)'", text)):
         kind = message_class(match[1])  # its field was to be set
         return "" if kind is None else _field(kind(), match[2])
@@ -67,15 +70,9 @@ def attribute_advice(error: BaseException) -> str:
         return f"{owner.__name__} is a function: call it with brackets, {owner.__name__}().{name}"
     if hasattr(owner, "get_fields_and_field_types"):
         return _field(owner, name)
-    if hasattr(owner, "create_publisher") and name in _IN_ROS_2:
-        return _in_ros_2(name)
     kinds = owner.__mro__ if isinstance(owner, type) else type(owner).__mro__
     left_out = next(filter(None, (_left_out(f"{kind.__module__}.{name}") for kind in kinds)), "")
     return left_out or _like(name, dir(owner))
-
-
-def _in_ros_2(name: str) -> str:
-    return f"Here it is: {_IN_ROS_2[name]}." if name in _IN_ROS_2 else ""
 
 
 def _of_none(error: BaseException, name: str) -> str:
