@@ -117,35 +117,35 @@ def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
     at = 0
     while at < len(lines):
         columns = [0] if lines[at].lstrip().startswith(("%", "!")) else [0, *inner_places(lines[at])]
-        column = next((each for each in columns if _is_command(cell, at, each)), None)
-        end = cell.statement_end(at) if column is None else cell.script_end(at, column)
-        translated += lines[at:end] if column is None else _call(lines[at:end], column)
+        found = next(filter(None, (_command(cell, at, each) for each in columns)), None)
+        end = cell.statement_end(at) if found is None else cell.script_end(at, found.start())
+        translated += lines[at:end] if found is None else _call(lines[at:end], found)
         at = end
     return translated
 
 
-def _is_command(cell: _Cell, at: int, column: int) -> bool:
-    """Whether what begins at this column of a line is meant for the terminal."""
+def _command(cell: _Cell, at: int, column: int) -> re.Match[str] | None:
+    """What begins at this column of a line, if it is meant for the terminal."""
     found = _FIRST.match(cell.lines[at], column)
     if found is None:
-        return False
+        return None
     sign, word, rest = (found["sign"] or "").strip(), found["word"], found["rest"]
-    if sign == "$" or (not sign and "/" in word):  # no statement of Python begins with ./
-        return True
-    if sign == "%":
-        return word in OWN_MAGICS
-    if sign == "!":
-        return word in OWN_MAGICS and shutil.which(word) is None
-    if _VARIABLE.match(word + rest):
-        return not _is_python(cell.statement(at, column))
-    if _PYTHON_NEXT.match(rest):
-        return False
-    if word in COMMANDS or word == ".":
-        return not cell.has(word) or not _is_python(cell.statement(at, column))
-    if not rest.strip():
-        return word in NEVER_PYTHON and not cell.has(word)
-    known = word in UNSURE or bool(difflib.get_close_matches(word, ("ros2", "colcon"), 1, 0.75))
-    return known and not _is_python(cell.statement(at, column))
+    if sign == "%" or sign == "!":
+        is_command = word in OWN_MAGICS and (sign == "%" or shutil.which(word) is None)
+    elif sign == "$" or "/" in word:  # no statement of Python begins with ./
+        is_command = True
+    elif _VARIABLE.match(word + rest):
+        is_command = not _is_python(cell.statement(at, column))
+    elif _PYTHON_NEXT.match(rest):
+        is_command = False
+    elif word in COMMANDS or word == ".":
+        is_command = not cell.has(word) or not _is_python(cell.statement(at, column))
+    elif not rest.strip():
+        is_command = word in NEVER_PYTHON and not cell.has(word)
+    else:
+        known = word in UNSURE or difflib.get_close_matches(word, ("ros2", "colcon"), 1, 0.75)
+        is_command = bool(known) and not _is_python(cell.statement(at, column))
+    return found if is_command else None
 
 
 def inner_places(line: str) -> Iterator[int]:
@@ -173,13 +173,11 @@ def _is_python(statement: str) -> bool:
     return True
 
 
-def _call(lines: list[str], column: int) -> list[str]:
+def _call(lines: list[str], found: re.Match[str]) -> list[str]:
     """The Python that runs a command, as many lines long as the command."""
-    found = _FIRST.match(lines[0], column)
-    assert found is not None
     sign = "!" if (found["sign"] or "").startswith("!") else ""
     script = "".join([sign, lines[0][found.start("word") :], *lines[1:]]).rstrip("\n")
-    call = f"{lines[0][:column]}{found['indent']}get_ipython().run_line_magic({MAGIC!r}, {script!r})"
+    call = f"{lines[0][: found.end('indent')]}get_ipython().run_line_magic({MAGIC!r}, {script!r})"
     return [f"{call}\n", *["\n"] * (len(lines) - 1)]
 
 

@@ -85,11 +85,9 @@ def reader_of(text: str | None) -> StringIO | None:
 
 
 def _say_how_it_ended(process: Process) -> None:
-    code = _status(process)
-    if code < 0:
-        print(f"[ros2run]: {SIGNAL_TEXTS.get(code, f'Signal {-code}')}", file=process.stdout)
-    elif code > 0:
-        print(f"[ros2run]: Process exited with failure {code}", file=process.stdout)
+    if code := _status(process):
+        failure = f"Process exited with failure {code}"
+        print(f"[ros2run]: {failure if code > 0 else SIGNAL_TEXTS.get(code, f'Signal {-code}')}", file=process.stdout)
 
 
 def _status(process: Process) -> int:

@@ -240,8 +240,7 @@ def _unrecognized(words: Sequence[str], options: Iterable[str], takes_values: bo
 _ABOUT = "ros2 is the command line of ROS 2: each command looks at, or changes, the system that is running."
 ROS2 = Group("ros2", _ABOUT, flag=("--use-python-default-buffering", "accepted, but without effect here"))
 
-_HIDDEN_SERVICES = ("--include-hidden-services", "also count services with a hidden name")
-_HIDDEN_TOPICS = ("--include-hidden-topics", "also count topics with a hidden name")
+_HIDDEN = "also count those with a hidden name"
 
 GROUPS = {
     group.prog.removeprefix("ros2 "): group
@@ -257,8 +256,13 @@ GROUPS = {
         Group("ros2 param", "Read and change the parameters of nodes", "param"),
         Group("ros2 pkg", "Find packages, and create new ones", "pkg"),
         Group("ros2 run", "Start one program of a package", "run_launch"),
-        Group("ros2 service", "Find services and call them", "calls", _HIDDEN_SERVICES),
-        Group("ros2 topic", "Listen to topics, publish on them, measure them", "topic", _HIDDEN_TOPICS),
+        Group("ros2 service", "Find services and call them", "calls", ("--include-hidden-services", _HIDDEN)),
+        Group(
+            "ros2 topic",
+            "Listen to topics, publish on them, measure them",
+            "topic",
+            ("--include-hidden-topics", _HIDDEN),
+        ),
     )
 }
 
