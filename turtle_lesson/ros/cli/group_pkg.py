@@ -19,7 +19,7 @@ from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .arguments import arg, cut, either, flag
-from .typed_values import interface_names
+from .typed_values import suggest_type
 from .verb import CommandError, verb
 
 SITE = Path(__file__).resolve().parents[1] / "site"
@@ -178,7 +178,7 @@ def _package(args: Namespace) -> None:
 
 def _check_package(name: str, base: str = "") -> None:
     if not registry.knows(name):
-        hint = _where_is(base) or did_you_mean(name[:100], registry.packages())
+        hint = suggest_type(base) or did_you_mean(name[:100], registry.packages())
         built = "A package of your own is known once it is built and its setup file is sourced."
         raise CommandError(f"Unknown package '{cut(name, 100)}'", hint or built)
 
@@ -187,7 +187,7 @@ def _check(name: str) -> None:
     """Raise CommandError, in the real tool's words, unless there is an interface of this full name."""
     parts = name.split("/")
     if len(parts) != 3 or not all(parts):
-        hint = _where_is(parts[-1][:100]) or "Such as geometry_msgs/msg/Twist"
+        hint = suggest_type(parts[-1][:100]) or "Such as geometry_msgs/msg/Twist"
         raise CommandError(f"Invalid name '{cut(name, 100)}'. Expected three parts separated by '/'", hint)
     package, folder, base = parts
     _check_package(package, base[:100])
@@ -196,12 +196,6 @@ def _check(name: str) -> None:
         where = shown_path(str(owner.directory / cut(f"{folder}/{base}", 100)))
         hint = did_you_mean(name[:100], [f"{package}/{each}" for each in registry.interface_names(package)])
         raise CommandError(f"Could not find the interface '{where}.idl'", hint)
-
-
-def _where_is(base: str) -> str:
-    """`Did you mean 'geometry_msgs/msg/Twist'?`, where an interface has this last name."""
-    found = [name for name in interface_names() if name.rpartition("/")[2].lower() == base.lower()]
-    return f"Did you mean {' or '.join(map(repr, found[:3]))}?" if found else ""
 
 
 ALL_COMMENTS = flag("--all-comments", "also show the comments of nested types")

@@ -11,7 +11,7 @@ import sys
 from argparse import Namespace
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from textwrap import wrap
@@ -54,7 +54,10 @@ def run(
         call.arguments.stdin = stdin
         with contextlib.redirect_stdout(cast("TextIO", stdout)), contextlib.redirect_stderr(cast("TextIO", errors)):
             return call.verb.main(call.arguments)
-    main = partial(_main, call)
+
+    def main() -> None:
+        sys.exit(call.main())
+
     if background:
         out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
         process = world.spawn(main, name="ros2", argv=words, stdout=out, stderr=error)
@@ -72,15 +75,6 @@ def run(
     return process.exit_code or 0
 
 
-def _main(call: Call) -> None:
-    """The main program of the process that a verb runs as."""
-    try:
-        code = call.verb.main(call.arguments)
-    except KeyboardInterrupt:
-        code = INTERRUPTED
-    sys.exit(code)
-
-
 # -- commands in launch files --------------------------------------------------------------------------------------------
 
 
@@ -91,10 +85,7 @@ def run_here(words: Sequence[str]) -> int:
     except Stop as stop:
         return stop.print(sys.stdout, sys.stderr)
     current_process().state(Invocation).background = True
-    try:
-        return call.verb.main(call.arguments)
-    except KeyboardInterrupt:
-        return INTERRUPTED
+    return call.main()
 
 
 def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
@@ -138,6 +129,13 @@ class Call:
 
     verb: Verb
     arguments: Namespace
+
+    def main(self) -> int:
+        """Do the verb's work in the running process; its exit code, also after Ctrl-C."""
+        try:
+            return self.verb.main(self.arguments)
+        except KeyboardInterrupt:
+            return INTERRUPTED
 
 
 @dataclass(frozen=True)

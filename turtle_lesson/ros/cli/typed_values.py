@@ -50,15 +50,14 @@ def _find(get: Callable[[str], Any], name: str) -> Any:
         return None
 
 
-def suggest_type(name: str, folder: str) -> str:
-    """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type is like that."""
-    known = [each for each in interface_names() if each.split("/")[1] == folder]
+def suggest_type(name: str, folder: str = "") -> str:
+    """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type, or none of this folder, is like that."""
+    known = [each for each in interface_names() if each != name and f"/{folder}" in each]
     package, _, last = name.replace(".", "/").rpartition("/")
-    same_name = [each for each in known if each.rpartition("/")[2].lower() == last.lower() and each != name]
+    same_name = [each for each in known if each.rpartition("/")[2].lower() == last.lower()]
     if same_name and not registry.knows(package.partition("/")[0]):
         return f"Did you mean '{sorted(same_name, key=lambda each: not each.startswith('std_'))[0]}'?"
-    full = f"{package}/{folder}/{last}" if package and "/" not in package else name
-    return did_you_mean(full, [each for each in known if each != name])
+    return did_you_mean(f"{package}/{folder}/{last}" if package and "/" not in package else name, known)
 
 
 def interface_names() -> list[str]:
