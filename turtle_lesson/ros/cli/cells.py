@@ -30,9 +30,7 @@ _ROS_1 = {
 }  # fmt: skip
 
 _BY_ADVICE = {
-    "nothing needs to be installed here: ROS 2 is simulated, and everything that the lesson needs is there": (
-        "apt apt-get rosdep sudo"
-    ),
+    "nothing needs to be installed here: ROS 2 is simulated": "apt apt-get rosdep sudo",
     "type commands into the cell, as in a terminal; bash FILE runs the commands in a file that is here": "bash sh",
     "JupyterLab's menu Edit clears the outputs of cells": "clear",
     "colcon build does that, from a package's CMakeLists.txt": "cmake make",
@@ -42,9 +40,7 @@ _BY_ADVICE = {
     "the simulated world is there already: turtlesim, which start() starts": "gazebo",
     "launch_testing is not available here; write tests with pytest instead": "launch_test",
     "%pip install NAME installs into this notebook's Python": "pip3",
-    "python3 FILE runs a file, and ros2 run the program of a package; !python3 is the Python of your computer": (
-        "python python3"
-    ),
+    "python3 FILE runs a file, ros2 run a package's program, and !python3 your computer's Python": "python python3",
     "ROS 2 needs none: its nodes find one another": "roscore",
     "there are no windows here; lesson.plot_graph(), plot_path(), plot_status() and plot_scan() draw into the page": (
         "rqt rqt_console rqt_graph rqt_plot rviz rviz2"

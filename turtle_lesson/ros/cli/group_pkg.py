@@ -52,6 +52,7 @@ def hint_for_package(name: str) -> str:
 
 
 PACKAGE = arg("package_name", "name of the package")
+ANY_PACKAGE = arg("package_name", "name of the package; all packages if left out", nargs="?")
 
 
 @verb("pkg list", in_cell=True)
@@ -78,9 +79,9 @@ def _xml(args: Namespace) -> None:
     from xml.etree import ElementTree
 
     packages = current_packages()
-    path = packages.get(args.package_name).share / "package.xml" if args.package_name in packages else None
-    if path is None and find_prefix(args.package_name) is None:
+    if find_prefix(args.package_name) is None:
         raise CommandError("Package not found", hint_for_package(args.package_name))
+    path = packages.get(args.package_name).share / "package.xml" if args.package_name in packages else None
     if path is None or not path.is_file():
         raise CommandError(f"the package '{args.package_name}' has no package.xml here: it is a part of the simulation")
     text = path.read_text(encoding="utf-8")
@@ -95,24 +96,15 @@ def _xml(args: Namespace) -> None:
         print((element.text or "").strip())
 
 
-@verb(
-    "pkg executables",
-    arg("package_name", "name of the package; all packages if left out", nargs="?"),
-    flag("--full-path", "print the paths of the programs"),
-    in_cell=True,
-)
+@verb("pkg executables", ANY_PACKAGE, flag("--full-path", "print the paths of the programs"), in_cell=True)
 def _executables(args: Namespace) -> None:
     """List the programs of a package."""
-    packages = current_packages()
-    names = packages.names() if args.package_name is None else [args.package_name]
-    for name in names:
-        if name not in packages:
-            if find_prefix(name) is None:
-                raise not_found(name)
-            continue
-        package = packages.get(name)
+    packages, name = current_packages(), args.package_name
+    if name is not None and find_prefix(name) is None:
+        raise not_found(name)
+    for package in map(packages.get, packages.names() if name is None else {name} & set(packages.names())):
         for executable in sorted(package.executables):
-            print(shown_path(str(path_of(package, executable))) if args.full_path else f"{name} {executable}")
+            print(shown_path(str(path_of(package, executable))) if args.full_path else f"{package.name} {executable}")
 
 
 def path_of(package: Package, executable: str) -> Path:

@@ -163,11 +163,6 @@ class Terminal:
             print(line, file=self.stdout)
         return 0
 
-    def fail(self, text: str, code: int = 1) -> int:
-        """Print a line on stderr; returns the exit code."""
-        print(text, file=self.stderr)
-        return code
-
     def for_each(self, names: Iterable[str], do: Callable[[Path], object], cannot: str) -> int:
         """Do something with each file; print why for one with which it fails. Returns 1 if there was such a one, else 0."""
         code = 0
@@ -175,7 +170,8 @@ class Terminal:
             try:
                 do(Path(name))
             except OSError as error:
-                code = self.fail(f"{cannot} '{name}': {error.strerror or error}")
+                code = 1
+                print(f"{cannot} '{name}': {error.strerror or error}", file=self.stderr)
         return code
 
 

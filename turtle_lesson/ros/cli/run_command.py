@@ -23,7 +23,7 @@ from ..launching.commands import UnknownCommand
 from ..runtime.world import Waiter, current_process
 from .arguments import WIDTH, Stop, cut
 from .jobs import Errors, jobs, lasting
-from .script import ShellSyntaxError, UnfinishedError, expand, pipelines, tokens
+from .script import ShellSyntaxError, expand, pipelines, tokens
 from .verb import INTERRUPTED, VERBS, Invocation, Verb
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
     """
     try:
         plan = list(pipelines(list(tokens(text))))
-    except (UnfinishedError, ShellSyntaxError) as mistake:
+    except ShellSyntaxError as mistake:
         raise UnknownCommand(f"syntax error in the command {text!r}: {mistake}") from None
     found = []
     for sign, pipeline in plan:

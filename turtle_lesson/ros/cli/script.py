@@ -37,7 +37,11 @@ _PIECE = re.compile(
 do no harm here."""
 
 
-class UnfinishedError(ValueError):
+class ShellSyntaxError(ValueError):
+    """A line that cannot be taken apart into commands."""
+
+
+class UnfinishedError(ShellSyntaxError):
     """A quote or a `<<END` is never closed, or the line ends in a backslash."""
 
 
@@ -140,10 +144,6 @@ def _here_text(sign: re.Match[str]) -> tuple[HereText, str]:
 
 
 # -- pipelines -------------------------------------------------------------------------------------------------------
-
-
-class ShellSyntaxError(ValueError):
-    """A line that cannot be taken apart into commands."""
 
 
 @dataclass

@@ -29,7 +29,6 @@ from .script import (
     NOT_EXECUTABLE,
     Command,
     ShellSyntaxError,
-    UnfinishedError,
     Word,
     commands_in,
     expand,
@@ -83,7 +82,7 @@ class Shell:
         """
         try:
             plan = list(pipelines(tokens(script)))
-        except (UnfinishedError, ShellSyntaxError) as mistake:
+        except ShellSyntaxError as mistake:
             print(f"syntax error: {cut(str(mistake), 300)}", file=error)
             self._last.exit_code = SYNTAX
             return SYNTAX

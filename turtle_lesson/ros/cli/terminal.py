@@ -8,12 +8,17 @@ import shutil
 from collections.abc import Iterable
 from errno import EINVAL, EISDIR
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.world import run_for
 from ..sim.errors import shown_path
 from .jobs import SIGNALS, Builtin, Terminal, export, jobs, options, printenv, send, unset
+
+if TYPE_CHECKING:
+    from ..launching import LaunchHandle
+    from ..sim.process import Process
 
 # -- folders -----------------------------------------------------------------------------------------------------------
 
@@ -257,16 +262,16 @@ def kill(terminal: Terminal, words: list[str]) -> int:
         raise ValueError(f"{name}: invalid signal specification; there are {', '.join(SIGNALS)}")
     if not words:
         raise ValueError("which one? `jobs` lists what is running; kill -INT %1 is Ctrl-C for the first")
-    code = 0
     for word in words:
-        running = {str(process.pid): process for process in terminal.world.processes if process.alive}
-        target = {**running, **{f"%{job.number}": job.what for job in jobs(terminal.world).running}}.get(word)
-        if target is None:
-            code = terminal.fail(f"kill: {word[:60]}: no such job or process. `jobs` lists what is running")
-        else:
-            send(target, name)
-            terminal.world.sim.settle()
-    return code
+        running: dict[str, Process | LaunchHandle] = {
+            f"%{job.number}": job.what for job in jobs(terminal.world).running
+        }
+        running |= {str(process.pid): process for process in terminal.world.processes if process.alive}
+        if word not in running:
+            raise ValueError(f"{word[:60]}: no such job or process. `jobs` lists what is running")
+        send(running[word], name)
+        terminal.world.sim.settle()
+    return 0
 
 
 _WORDS = (
