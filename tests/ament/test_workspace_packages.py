@@ -309,7 +309,7 @@ def test_a_subpackage_that_is_not_listed_is_left_out(
     assert run_line(world, "colcon build && source install/setup.bash && ros2 run py_demo hello") == 1
     said = capsys.readouterr()
     assert "ModuleNotFoundError: No module named 'py_demo.tools'" in said.out + said.err
-    assert "setup.py leaves it out: add 'py_demo.tools' to its packages=[…]" in said.out + said.err
+    assert "but not in setup.py: write packages=find_packages(), and build again" in said.out + said.err
 
     assert run_line(world, "colcon build --symlink-install && ros2 run py_demo hello") == 0
 

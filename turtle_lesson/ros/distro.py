@@ -1,9 +1,9 @@
 """Releases of ROS 2, and what they do differently: the one table that decides it.
 
 A world behaves as one release, `world.release`: Humble, unless `start(distro="jazzy")` or the environment variable
-ROS_DISTRO says otherwise. Whoever does what depends on the release asks `release.has(CHANGE)`. What a newer release only
-adds (`is_addition`) works in every world, as nothing else could be meant by it, but it is remembered who has used it:
-`lesson.export` says which of it the release lacks.
+ROS_DISTRO says otherwise. Code that depends on the release asks `release.has(CHANGE)`. What a newer release only adds
+(`is_addition`) works in every world, since it can mean nothing else there, but each use is noted: `lesson.export` says
+which of them the release lacks.
 """
 
 from __future__ import annotations

@@ -102,7 +102,8 @@ def _executables(args: Namespace) -> None:
     packages, name = current_packages(), args.package_name
     if name is not None and find_prefix(name) is None:
         raise not_found(name)
-    for package in map(packages.get, packages.names() if name is None else {name} & set(packages.names())):
+    names = packages.names() if name is None else [name]
+    for package in [packages.get(each) for each in names if each in packages]:
         for executable in sorted(package.executables):
             print(shown_path(str(path_of(package, executable))) if args.full_path else f"{package.name} {executable}")
 

@@ -134,15 +134,15 @@ def _launch(args: Namespace) -> int:
     except LaunchError as error:
         print("\n".join(filter(None, (error.console, error.advice))))
         return 1
-    given_words = [args.package_name, args.launch_file_name or "", *(args.launch_arguments or [])]
-    return leave(handle, " ".join(["ros2 launch", *given_words]), args.seconds)
+    typed = ["ros2 launch", args.package_name, args.launch_file_name or "", *args.launch_arguments]
+    return leave(handle, " ".join(typed), args.seconds)
 
 
 def _find(args: Namespace) -> tuple[Path, list[str]]:
     """The launch file that is meant, and the words after it."""
-    name, file_name, words = args.package_name, args.launch_file_name, list(args.launch_arguments or [])
+    name, file_name, words = args.package_name, args.launch_file_name, args.launch_arguments
     if len(name) < 1000 and Path(name).is_file():
-        return Path(name), [*([file_name] if file_name is not None else []), *words]
+        return Path(name), [*filter(None, [file_name]), *words]
     if "/" in name or name.endswith((".py", ".launch.xml", ".launch.yaml", ".launch.yml")):
         hint = "Name the package before the launch file, or give the path of a file that is there."
         raise CommandError(f"'{cut(name, 100)}' is not a valid package name", hint)

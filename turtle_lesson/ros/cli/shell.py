@@ -169,8 +169,7 @@ class Shell:
 def _not_found(words: Sequence[str]) -> str:
     """What to say of a command that there is none of."""
     name = words[0]
-    other = advice(words)
-    if other:
+    if other := advice(words):
         return f"{name.lstrip('!')}: {cut(other, 300)}."
     hint = did_you_mean(name[:100], [*PROGRAMS, *terminal.BUILTINS])
     if re.match(r"\w+[(=\[.]", name):

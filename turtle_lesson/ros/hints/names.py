@@ -210,6 +210,7 @@ _FROM_ROS_1 = {
     "tf": "tf is ROS 1's; in ROS 2 it is tf2_ros, and for angles tf_transformations.",
     "rclcpp": "rclcpp is the library of C++; in Python it is rclpy.",
 }
+_BUILD = "build it (colcon build), then source install/setup.bash"
 _ON_PYPI = {"cv2": "opencv-python", "PIL": "pillow", "yaml": "pyyaml", "serial": "pyserial", "sklearn": "scikit-learn"}
 
 
@@ -250,10 +251,7 @@ def _parent(name: str) -> str:
     top = above.partition(".")[0]
     source = current_packages().get(top).source if top in current_packages() else None
     if source is not None and source.joinpath(*above.split("."), last).is_dir():
-        return (
-            f"The folder {last} is there, but setup.py leaves it out: add '{above}.{last}' to its packages=[…], or write "
-            "packages=find_packages(); then build again."
-        )
+        return f"The folder {last} is there, but not in setup.py: write packages=find_packages(), and build again."
     inner = [each.name for each in pkgutil.iter_modules(getattr(module, "__path__", []))]
     inner += [key for key, value in vars(module).items() if isinstance(value, ModuleType)]  # launch's have no file
     return _like(last, inner) or f"There is a module {above}, but it has no module {last}."
@@ -262,12 +260,10 @@ def _parent(name: str) -> str:
 def _of_ones_own(name: str) -> str:
     sources = [path.parent for path in Path.cwd().glob("src/**/package.xml") if path.parent.name == name]
     if sources or (Path.cwd() / "src" / name).is_dir():
-        return f"There is a package {name} in src: build it (colcon build), then source install/setup.bash."
+        return f"There is a package {name} in src: {_BUILD}."
     if re.search(r"_(msgs|srvs|actions|interfaces?)$", name):
         return (
-            f"Is the name spelled correctly? Packages of messages are built here, too: put the folder {name} (with its "
-            "package.xml, CMakeLists.txt and msg, srv or action) into src, build it (colcon build), and source "
-            "install/setup.bash."
+            f"Is the name spelled correctly? Packages of messages are built here, too: put {name} into src, {_BUILD}."
         )
     return (
         "Is the name spelled correctly? A package of your own is found when it is built (colcon build) and sourced "
@@ -291,10 +287,7 @@ def _no_name(module: str, name: str) -> str:
         return close
     if package not in INSTALLED_SEPARATELY or owner.directory.parent != SHARE:
         return ""
-    return (
-        f"{name} is not among the interfaces of {package} that are available here: if a robot has it, put that package's "
-        "own sources into src, build it (colcon build), and source install/setup.bash."
-    )
+    return f"{name} is not in {package} here: if a robot has it, put that package's sources into src, {_BUILD}."
 
 
 def _like(name: str, known: list[str]) -> str:
