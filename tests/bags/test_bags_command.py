@@ -8,6 +8,7 @@ controls, and names that are not there get a "did you mean".
 
 from __future__ import annotations
 
+import contextlib
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -31,7 +32,8 @@ class Terminal:
 
     def __call__(self, line: str) -> tuple[int, str, str]:
         out, err = StringIO(), StringIO()
-        code = run(self.world, line.split(), stdout=out, stderr=err, cwd=self.folder)
+        with contextlib.chdir(self.folder):
+            code = run(self.world, line.split(), stdout=out, stderr=err)
         return code, out.getvalue(), err.getvalue()
 
 

@@ -169,9 +169,7 @@ class _Command:
             if any(each.path.is_relative_to(folder.resolve() / each.name) for each in workspace):
                 raise ColconError(f"{folder.name} is the folder of the sources; choose another folder")
         if self.cwd.name == "src" and workspace and not (self.cwd / "src").is_dir():
-            self.err.write(
-                "Hint: this is src/, so install/ is made in it. Packages are usually built in the folder above.\n"
-            )
+            self.err.write("Hint: install/ is made here, in src/; packages are usually built in the folder above.\n")
         return build(self.world, plan, stdout=self.out, stderr=self.err)
 
 

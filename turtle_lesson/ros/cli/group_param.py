@@ -59,10 +59,7 @@ def nested(names_and_values: list[tuple[str, Any]]) -> dict[str, Any]:
         place = tree
         *folders, last = name.split(".")
         for folder in folders:
-            inner = place.setdefault(folder, {})
-            if not isinstance(inner, dict):
-                break
-            place = inner
+            place = place.setdefault(folder, {}) if isinstance(place.get(folder, {}), dict) else place
         place[last] = value
     return tree
 

@@ -14,7 +14,6 @@ from ..ament.create import create_package
 from ..ament.index import current_packages, package_hint
 from ..ament.package import Package
 from ..idl.definition import parse
-from ..idl.model import FieldType
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
@@ -212,9 +211,10 @@ def _lines(package: str, interface: str, args: Namespace, depth: int) -> Iterato
         shown = line.rstrip() if commented else _without_comment(line)
         if shown or commented:
             yield "\t" * depth + shown if shown else ""
-        field = _field_type(package, line)
-        if field is not None and field.package:
-            yield from _lines(field.package, f"msg/{field.base}", args, depth + 1)
+        declares = _without_comment(line).strip() not in ("", "---")
+        for field in parse("msg", package, "Line", line).fields if declares else ():
+            if field.type.package:
+                yield from _lines(field.type.package, f"msg/{field.type.base}", args, depth + 1)
 
 
 _CODE = re.compile(r"""(?:[^'"#]|(['"]).*?(?:\1|$))*""")
@@ -224,14 +224,6 @@ def _without_comment(line: str) -> str:
     """A line up to its comment; a `#` in quotes is none."""
     found = _CODE.match(line)
     return found[0].rstrip() if found else ""
-
-
-def _field_type(package: str, line: str) -> FieldType | None:
-    """The type of the field that a line declares, if it declares one."""
-    if not _without_comment(line).strip() or line.strip() == "---":
-        return None
-    fields = parse("msg", package, "Line", line).fields
-    return fields[0].type if fields else None
 
 
 @verb("interface proto", TYPE, flag("--no-quotes", "without the quotation marks around it"), in_cell=True)

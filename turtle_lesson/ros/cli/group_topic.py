@@ -105,13 +105,26 @@ def pub(args: Namespace) -> None:
 
 
 def _wait_for_subscriptions(node: Node, publisher: Publisher, needed: int) -> None:
+    """Wait for subscriptions; raise CommandError with the reason if there are too few. The real tool waits forever."""
     for look in range(round(PATIENCE * 10)):
         if _matched(node, publisher) >= needed:
             return
         if look % 10 == 0:
             print(f"Waiting for at least {needed} matching subscription(s)...")
         time.sleep(0.1)
-    raise CommandError(*_why_too_few(node, publisher, needed))
+    name, kind = publisher.topic_name, publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
+    types = sorted({each.topic_type for each in subscriptions(node, name)})
+    waited = f"Gave up after {PATIENCE:g} s of robot time"
+    if not types:
+        others = [each for each in topics(node, include_hidden=True) if subscriptions(node, each)]
+        hint = suggest(name, others) or "With -w 0 the command does not wait."
+        raise CommandError(f"{waited}: no node subscribes to {name}", hint)
+    if kind not in types:
+        raise CommandError(f"{waited}: the subscription of {name} is of type {', '.join(types)}, not {kind}")
+    if matched := _matched(node, publisher):
+        raise CommandError(f"{waited}: {name} has {matched} subscription(s), not {needed}")
+    hint = f"`ros2 topic info -v {name}` shows it."
+    raise CommandError(f"{waited}: the subscription of {name} requests another quality of service", hint)
 
 
 def _matched(node: Node, publisher: Publisher) -> int:
@@ -122,24 +135,6 @@ def _matched(node: Node, publisher: Publisher) -> int:
         if of_the_simulator(each.node_name) and each.topic_type == publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
     ]
     return max(0, publisher.get_subscription_count() - len(own))
-
-
-def _why_too_few(node: Node, publisher: Publisher, needed: int) -> tuple[str, str]:
-    """Why there are too few subscriptions, and a hint. The real tool waits forever."""
-    name, kind = publisher.topic_name, publisher.msg_type._TYPE_NAME  # type: ignore[attr-defined]
-    there = subscriptions(node, name)
-    waited = f"Gave up after {PATIENCE:g} s of robot time"
-    if not there:
-        others = [each for each in topics(node, include_hidden=True) if subscriptions(node, each)]
-        hint = suggest(name, others) or "With -w 0 the command does not wait."
-        return f"{waited}: no node subscribes to {name}", hint
-    types = sorted({each.topic_type for each in there})
-    if kind not in types:
-        return f"{waited}: the subscription of {name} is of type {', '.join(types)}, not {kind}", ""
-    if not _matched(node, publisher):
-        hint = f"`ros2 topic info -v {name}` shows it."
-        return f"{waited}: the subscription of {name} requests another quality of service", hint
-    return f"{waited}: {name} has {_matched(node, publisher)} subscription(s), not {needed}", ""
 
 
 EXAMPLES = ("/turtle1/pose", "geometry_msgs/msg/Twist")

@@ -9,7 +9,7 @@ from array import array
 from collections import deque
 from collections.abc import Callable, Collection
 from itertools import pairwise
-from math import sqrt
+from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 from ..runtime.world import current_process
@@ -158,18 +158,6 @@ def class_of_topic(node: Node, topic: str) -> Any:
     return class_of(types[0], "msg")
 
 
-def wait_for_class(node: Node, topic: str, seconds: float | None) -> Any:
-    """The class of a topic's messages; if no node uses the topic, waits so long for one that does."""
-    begun = now()
-    while (kind := class_of_topic(node, topic)) is None:
-        if now() == begun:
-            print(NOT_PUBLISHED.format(topic))
-        if seconds is not None and now() >= begun + seconds:
-            raise CommandError(*why_silent(node, topic, None, seconds))
-        time.sleep(LOOK_AGAIN)
-    return kind
-
-
 def why_silent(node: Node, topic: str, kind: Any, seconds: float) -> tuple[str, str]:
     """Why no message has come for so long (s), and a hint. `kind` is the class that was listened for."""
     name = expanded(node, topic)
@@ -229,11 +217,9 @@ def listen(
 # What is counted when follows recordings of the real tools: `hz` reports at a message that comes a second or more
 # after the last report, `bw` and `delay` report every second.
 
-WINDOW = "How many messages to average over (default: %(default)s)"
-
 
 def _window(messages: int) -> Argument:
-    return arg("--window -w", WINDOW, metavar="WINDOW", type=positive_int, default=messages)
+    return arg("--window -w", "Messages to average over (default: %(default)s)", type=positive_int, default=messages)
 
 
 def _now() -> int:
@@ -297,25 +283,24 @@ def _bytes(size: float, rate: float) -> str:
 def delay(args: Namespace) -> None:
     """How old the messages of a topic are when they arrive, judged by the stamp in their header."""
     ages: deque[int] = deque(maxlen=args.window)
-    begun = False  # the first message only begins the count
-    news = False
+    heard = reported = 0
 
     def count(message: Any) -> None:
-        nonlocal begun, news
+        nonlocal heard
         if not hasattr(message, "header"):
             raise CommandError("msg does not have header")
         stamp = message.header.stamp
-        if begun:
+        if heard:  # the first message only begins the count
             ages.append(EPOCH + _now() - (stamp.sec * SECOND + stamp.nanosec))
-        begun = news = True
+        heard += 1
 
     def report() -> None:
-        nonlocal news
-        if ages and not news:
+        nonlocal reported
+        if ages and heard == reported:
             print("no new messages")
         elif ages:
             _print_times(lambda mean: f"average delay: {mean:.3f}", ages)
-        news = False
+        reported = heard
 
     _measure(args, args.topic, count, report)
 
@@ -331,8 +316,15 @@ def _measure(
     """Have `count` called for every message (or its `raw` bytes), and `report` every second."""
     from rclpy.qos import qos_profile_sensor_data
 
+    seconds = stretch_of(args) or inf
     with direct_node(args) as node:
-        kind = wait_for_class(node, topic, stretch_of(args))
+        begun = now()
+        while (kind := class_of_topic(node, topic)) is None:  # no node uses the topic yet
+            if now() == begun:
+                print(NOT_PUBLISHED.format(topic))
+            if now() >= begun + seconds:
+                raise CommandError(*why_silent(node, topic, None, seconds))
+            time.sleep(LOOK_AGAIN)
         if raw:
             print(f"Subscribed to [{topic}]")
         if report is not None:

@@ -262,9 +262,7 @@ def _of_ones_own(name: str) -> str:
     if sources or (Path.cwd() / "src" / name).is_dir():
         return f"There is a package {name} in src: {_BUILD}."
     if re.search(r"_(msgs|srvs|actions|interfaces?)$", name):
-        return (
-            f"Is the name spelled correctly? Packages of messages are built here, too: put {name} into src, {_BUILD}."
-        )
+        return f"Is the name spelled correctly? Packages of messages are built here: put {name} into src, {_BUILD}."
     return (
         "Is the name spelled correctly? A package of your own is found when it is built (colcon build) and sourced "
         "(source install/setup.bash); a module beside the program, when its package is installed; "
