@@ -84,9 +84,9 @@ def install_entries(found: Found, command: Command, *, cpp: bool) -> list[Entry]
 
 
 def runs_python(entry: Entry) -> bool:
-    """Whether an entry is no program, or one that can run here: its first line, if there is one, names no other interpreter."""
-    first = _first_line(entry.source)
-    return entry.kind != "PROGRAMS" or not first.startswith("#!") or "python" in first
+    """Whether an entry is no program, or one whose first line names no interpreter but Python."""
+    first = _first_line(entry.source) if entry.kind == "PROGRAMS" else ""
+    return not first.startswith("#!") or "python" in first
 
 
 def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item]:
@@ -129,8 +129,11 @@ def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item
 
 
 def _first_line(file: Path) -> str:
-    text = file.read_bytes().split(b"\n", 1)[0] if file.is_file() else b""
-    return text.decode("utf-8", "replace")
+    """The first line of a program; nothing where there is no file."""
+    if not file.is_file():
+        return ""
+    with file.open(encoding="utf-8", errors="replace") as lines:
+        return lines.readline()
 
 
 # -- rosidl_generate_interfaces ----------------------------------------------------------------------------------------
@@ -139,12 +142,11 @@ _GROUP = "rosidl_interface_packages"
 _WORDS = {"DEPENDENCIES", "LIBRARY_NAME", "SKIP_INSTALL", "SKIP_GROUP_MEMBERSHIP_CHECK", "ADD_LINTER_TESTS"}
 _GENERATE = f"{SHARE}/rosidl_cmake/cmake/rosidl_generate_interfaces.cmake"
 _ADAPT = f"{SHARE}/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake:59 (message)"
-_KINDS = ("msg", "srv", "action")
 
 
 def definitions(folder: Path) -> list[str]:
     """The definition files of a package where they are looked for, such as `msg/TurtleStatus.msg`."""
-    found = [path for kind in _KINDS for path in sorted((folder / kind).glob(f"*.{kind}"))]
+    found = [path for kind in FOLDERS for path in sorted((folder / kind).glob(f"*.{kind}"))]
     return [path.relative_to(folder).as_posix() for path in found]
 
 
@@ -288,24 +290,15 @@ def interface_items(found: Found, files: list[str]) -> Iterator[Item]:
     Definitions are copied, as the classes are made from these: with --symlink-install, too, a new field counts after a build.
     """
     name = found.name
-    share = [Item(f"share/{name}/{file}", found.path / file, copied=True) for file in files]
-    for path in (Path(file) for file in files if file.endswith(".srv")):
-        request, _, response = (found.path / path).read_text(encoding="utf-8").partition("\n---")
-        for part, text in (("Request", request.removeprefix("---")), ("Response", response.partition("\n")[2])):
-            target = f"share/{name}/{path.with_suffix('').as_posix()}_{part}.msg"
-            share.append(Item(target, text=text.strip("\n") + "\n"))
-    yield from share
-    listed = sorted(item.target.removeprefix(f"share/{name}/") for item in share)
-    yield Item(f"share/ament_index/resource_index/rosidl_interfaces/{name}", text="\n".join(listed))
+    yield from (Item(f"share/{name}/{file}", found.path / file, copied=True) for file in files)
+    yield Item(f"share/ament_index/resource_index/rosidl_interfaces/{name}", text="\n".join(sorted(files)))
     folder = f"{PYTHON_FOLDERS['cmake']}/{name}"
     yield Item(f"{folder}/__init__.py")
-    for kind in _KINDS:
-        classes = [Path(file).stem for file in files if file.startswith(f"{kind}/")]
-        modules = {each: module_name(each) for each in classes}
+    for kind in FOLDERS:
+        modules = {Path(file).stem: module_name(Path(file).stem) for file in files if file.startswith(f"{kind}/")}
         lines = [f"from {name}.{kind}.{module} import {each}  # noqa: F401\n" for each, module in modules.items()]
         if lines:
             yield Item(f"{folder}/{kind}/__init__.py", text="".join(lines))
         for each, module in modules.items():
-            yield Item(
-                f"{folder}/{kind}/{module}.py", text=filled("interface module", package=name, kind=kind, name=each)
-            )
+            text = filled("interface module", package=name, kind=kind, name=each)
+            yield Item(f"{folder}/{kind}/{module}.py", text=text)

@@ -117,7 +117,7 @@ def install_package(found: Found, outcome: Outcome, environment: Environment) ->
     build = environment.build / found.name
     manifest = build / "install_manifest.txt"
     _uninstall(prefix, manifest)
-    items = [*outcome.items, *_index(found, outcome), *_hooks(found, outcome)]
+    items = [*outcome.items, *_index(found, outcome)]
     files.save(manifest, "".join(f"{item.target}\n" for item in items))
     for item in items:
         _write(item, prefix / item.target, environment.symlink)
@@ -166,31 +166,13 @@ def files_in(folder: Path) -> Iterator[Path]:
 
 
 def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
-    """The entries in the ament index, by which ROS 2 finds the package."""
+    """The files by which ROS 2 and colcon find the package, and what it needs when it runs."""
     name = found.name
     if not found.is_python:
         yield Item(f"{_INDEX}/packages/{name}")
-        yield Item(f"{_INDEX}/package_run_dependencies/{name}", text=";".join(found.runtime_dependencies))
-        yield Item(f"{_INDEX}/parent_prefix_path/{name}", text="/opt/ros/humble")
-        config = f"# By this file find_package({name}) finds the package.\nset({name}_FOUND TRUE)\n"
-        yield Item(f"share/{name}/cmake/{name}Config.cmake", text=config)
     if all(item.target != f"share/{name}/package.xml" for item in outcome.items):
         yield Item(f"share/{name}/package.xml", found.path / "package.xml")
     yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(found.runtime_dependencies))))
-
-
-def _hooks(found: Found, outcome: Outcome) -> Iterator[Item]:
-    """What the package adds to the environment: a .dsv file a variable, as of colcon."""
-    share = f"share/{found.name}"
-    place = f"{share}/{'hook' if found.is_python else 'environment'}"
-    variables = {"AMENT_PREFIX_PATH": ""}
-    for folder in PYTHON_FOLDERS.values():
-        if any(item.target.startswith(folder) for item in outcome.items):
-            variables["PYTHONPATH"] = folder
-    for variable, folder in variables.items():
-        yield Item(f"{place}/{variable.lower()}.dsv", text=f"prepend-non-duplicate;{variable};{folder}")
-    sources = "".join(f"source;{place}/{variable.lower()}.dsv\n" for variable in variables)
-    yield Item(f"{share}/package.dsv", text=sources)
 
 
 def write_setup_files(install: Path) -> None:
