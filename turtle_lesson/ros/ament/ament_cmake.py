@@ -23,7 +23,7 @@ from .cmake_commands import (
 )
 from .index import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, package_hint, why_not_here
 from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, prefix_of, with_hint
-from .manifest import Found, faults_in, hint_for
+from .manifest import Found, faults_in
 from .package import SHARE, BuildFailure, cmake_message, filled, refused
 
 _PACKAGE_XML = f"{SHARE}/ament_cmake_core/cmake/core/ament_package_xml.cmake"
@@ -257,7 +257,8 @@ class _Build:
 
     def _check_xml(self, command: Command, caller: str) -> None:
         """What package.xml must not say, and the name that project() must."""
-        faults = [f"The manifest contains invalid XML:\n{self.found.xml_error}"] if self.found.xml_error else []
+        closed = "Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"
+        faults = {f"The manifest contains invalid XML:\n{self.found.xml_error}": closed}
         if self.found.root is not None:
             faults = faults_in(self.found.root)
         if faults:
@@ -268,12 +269,9 @@ class _Build:
             )
             what = f"{SHARE}/ament_cmake_core/cmake/core/package_xml_2_cmake.py"
             process = f"execute_process(/usr/bin/python3 {what} {file}) returned error code 1"
-            hints = [hint_for(fault) for fault in faults]
-            if self.found.xml_error:
-                hints = ["Is every <tag> closed by a </tag>, and is every < in a text written as &lt;?"]
             stack = [f"{_PACKAGE_XML}:49 (_ament_package_xml)", caller, command.where]
             message = cmake_message(process, f"{_PACKAGE_XML}:95 (message)", stack)
-            raise BuildFailure(text + message, " ".join(filter(None, hints)))
+            raise BuildFailure(text + message, " ".join(filter(None, faults.values())))
         project = self.called.get("project")
         if project is not None and project.args[0] != self.found.name:
             text = (

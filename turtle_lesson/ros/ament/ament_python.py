@@ -13,7 +13,7 @@ from typing import Any
 from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
 from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, with_hint
-from .manifest import Found, hint_for
+from .manifest import Found
 from .package import BuildFailure, filled
 from .setup_py import SetupError, install_scripts, read_setup
 
@@ -49,10 +49,8 @@ class _Build:
     def run(self) -> Outcome:
         folder, fault = self.found.path, self.found.xml_error
         if fault:
-            hint = f"{shown_path(str(folder / 'package.xml'))}: {fault}. {hint_for(fault)}".strip()
-            self.hints.append(
-                f"{hint} Until it is corrected, colcon takes the folder for a Python package without ROS."
-            )
+            until = "Until it is corrected, colcon takes the folder for a Python package without ROS."
+            self.hints.append(f"{shown_path(str(folder / 'package.xml'))}: {fault}. {until}")
         if not (folder / "setup.py").is_file():
             hint = "An ament_python package is built from its setup.py."
             if (folder / "CMakeLists.txt").is_file():

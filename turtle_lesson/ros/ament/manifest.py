@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
@@ -86,7 +86,8 @@ def read_found(path: Path, base: Path) -> Found:
         name = _name_of_project(path) or path.name
     build_type = _text(root, "export/build_type")
     if build_type != "ament_cmake" and (faults := faults_in(root)) and (name_in_setup := _name_in_setup(path)):
-        return Found(name_in_setup, path, shown, xml_error=faults[0])
+        fault, hint = next(iter(faults.items()))
+        return Found(name_in_setup, path, shown, xml_error=f"{fault}. {hint}".rstrip(". "))
     dependencies = list(dict.fromkeys(filter(None, _texts(root, *_ORDERING))))
     return Found(name, path, shown, build_type, dependencies, root)
 
@@ -191,35 +192,28 @@ _TAGS = {"1": _IN_ALL | {"run_depend"}, "2": _IN_ALL | _SINCE_2, "3": _IN_ALL | 
 _EMAIL = re.compile(r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}")
 
 
-def faults_in(root: ElementTree.Element) -> list[str]:
-    """Everything that is refused, in catkin_pkg's words; the first alone where it would stop at it."""
-    version = root.get("format", "1")
+def faults_in(root: ElementTree.Element) -> dict[str, str]:
+    """Everything that is refused, in catkin_pkg's words, each with what to try; the first alone where it would stop at it."""
+    version, name = root.get("format", "1"), _text(root, "name")
     if root.tag != "package":
-        return ['The manifest must contain a single "package" root tag']
+        return {'The manifest must contain a single "package" root tag': ""}
     if version not in _TAGS:
-        return [f"Unable to handle package.xml format version '{version}', please update catkin_pkg"]
+        fault = f"Unable to handle package.xml format version '{version}', please update catkin_pkg"
+        return {fault: 'Write <package format="3">.'}
     for tag in ("name", "version", "description"):
         if len(root.findall(tag)) != 1:
-            return [f'The manifest must contain exactly one "{tag}" tag']
-    name = _text(root, "name")
+            fault = f'The manifest must contain exactly one "{tag}" tag'
+            return {fault: "Write that tag once, directly inside <package>."}
     if len(root.findall("export")) > 1:
-        return ['The manifest must not contain more than one "export" tags']
+        fault = 'The manifest must not contain more than one "export" tags'
+        return {fault: "Put everything that is exported into one <export>."}
     if tags := sorted({child.tag for child in root if isinstance(child.tag, str)} - _TAGS[version]):
+        hint = " ".join(filter(None, (did_you_mean(tag, _TAGS["3"]) for tag in tags)))
+        if version != "3":
+            hint = 'Write <package format="3"> in the second line: these tags belong to a newer format than it names.'
         start = f'The manifest of package "{name}" (with format version {version})'
-        return [f"{start} must not contain the following tags: {', '.join(tags)}"]
-    return _redundant(root) or _values(root, name)
-
-
-def hint_for(fault: str) -> str:
-    """What to try about a fault, or nothing."""
-    if re.search(r"format version [12]\)", fault):
-        return 'Write <package format="3"> in the second line: these tags belong to a newer format than the one that it names.'
-    for part, advice in _HINTS.items():
-        if part in fault:
-            return advice
-    if match := re.search(r"following tags: (.*)", fault):
-        return " ".join(filter(None, (did_you_mean(tag, _TAGS["3"]) for tag in match[1].split(", "))))
-    return ""
+        return {f"{start} must not contain the following tags: {', '.join(tags)}": hint}
+    return dict(_redundant(root)) or dict(_values(root, name))
 
 
 def _text(root: ElementTree.Element, tag: str) -> str:
@@ -230,60 +224,41 @@ def _texts(root: ElementTree.Element, *tags: str) -> list[str]:
     return [(child.text or "").strip() for child in root if child.tag in tags]
 
 
-def _redundant(root: ElementTree.Element) -> list[str]:
-    found = []
+def _redundant(root: ElementTree.Element) -> Iterator[tuple[str, str]]:
     generic = _texts(root, "depend")
-    for name in dict.fromkeys(generic):
+    for name in generic:
         parts = ("build_depend", "build_export_depend", "exec_depend")
         if others := [tag for tag in parts if name in _texts(root, tag) or generic.count(name) > 1]:
-            found.append(f"The generic dependency on '{name}' is redundant with: {', '.join(others)}")
-    return found
+            fault = f"The generic dependency on '{name}' is redundant with: {', '.join(others)}"
+            yield fault, "<depend> says all of these at once: delete the others."
 
 
-def _values(root: ElementTree.Element, name: str) -> list[str]:
-    found = []
-    version = _text(root, "version")
+def _values(root: ElementTree.Element, name: str) -> Iterator[tuple[str, str]]:
+    version, licences = _text(root, "version"), _texts(root, "license")
+    address = '<maintainer email="you@example.org">Your Name</maintainer>.'
     if not re.match(r"[a-zA-Z0-9][a-zA-Z0-9_-]*$", name):
-        found.append(f'Package name "{name}" does not follow naming conventions')
-    if not version:
-        found.append("Package version must not be empty")
-    elif not re.fullmatch(r"[0-9]+\.[0-9]+\.[0-9]+", version):
-        found.append(f'Package version "{version}" does not follow version conventions')
-    description = root.find("description")
-    if not _text(root, "description") and (description is None or len(description) == 0):
-        found.append("Package description must not be empty")
+        hint = "A name has small letters, digits and '_', and begins with a letter."
+        yield f'Package name "{name}" does not follow naming conventions', hint
+    if not re.fullmatch(r"[0-9]+\.[0-9]+\.[0-9]+", version):
+        wrong = f'"{version}" does not follow version conventions' if version else "must not be empty"
+        yield f"Package version {wrong}", "A version is three numbers, such as <version>0.1.0</version>."
+    if not _text(root, "description") and not root.findall("description/*"):
+        yield "Package description must not be empty", ""
     if root.find("maintainer") is None:
-        found.append(f"Package '{name}' must declare at least one maintainer")
+        yield f"Package '{name}' must declare at least one maintainer", f"Add {address}"
     for person in [*root.findall("maintainer"), *root.findall("author")]:
         email = person.get("email")
         if email is not None and not _EMAIL.fullmatch(email):
-            found.append(f'Invalid email "{email}" for person "{(person.text or "").strip()}"')
+            fault = f'Invalid email "{email}" for person "{(person.text or "").strip()}"'
+            yield fault, "An address looks like you@example.org."
         elif email is None and person.tag == "maintainer":
-            found.append('The "maintainer" tag must have the attribute "email"')
-    licences = _texts(root, "license")
+            yield 'The "maintainer" tag must have the attribute "email"', f"Write {address}"
     if not licences:
-        found.append('The package node must contain at least one "license" tag')
+        yield 'The package node must contain at least one "license" tag', "Add <license>Apache-2.0</license>."
     if not all(licences):
-        found.append("The license tag must neither be empty nor only contain whitespaces")
+        yield "The license tag must neither be empty nor only contain whitespaces", ""
     for tag in _DEPENDS:
         if name in _texts(root, tag):
             kind = "build" if tag == "depend" else tag.removesuffix("_depend")
-            found.append(
-                f'The package "{name}" must not "{kind}_depend" on a package with the same name as this package'
-            )
-    return found
-
-
-_HINTS = {
-    "format version '": 'Write <package format="3">.',
-    'more than one "export"': "Put everything that is exported into one <export>.",
-    'exactly one "': "Write that tag once, directly inside <package>.",
-    "naming conventions": "A name has small letters, digits and '_', and begins with a letter.",
-    "version conventions": "A version is three numbers, such as <version>0.1.0</version>.",
-    "at least one maintainer": 'Add <maintainer email="you@example.org">Your Name</maintainer>.',
-    'attribute "email"': 'Write <maintainer email="you@example.org">Your Name</maintainer>.',
-    "Invalid email": "An address looks like you@example.org.",
-    'one "license" tag': "Add <license>Apache-2.0</license>.",
-    "redundant with": "<depend> says all of these at once: delete the others.",
-    "same name as this package": "Delete that line: a package does not depend on itself.",
-}
+            fault = f'The package "{name}" must not "{kind}_depend" on a package with the same name as this package'
+            yield fault, "Delete that line: a package does not depend on itself."
