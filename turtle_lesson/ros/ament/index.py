@@ -56,15 +56,11 @@ class PackageIndex:
         """The package of this name. Raises PackageNotFoundError with the real text, and the name that was perhaps meant."""
         if name in self._layers:
             return self._layers[name][-1]
-        text = f"package '{name}' not found, searching: {self.search_path()}"
+        places = [shown_path(str(package.prefix or package.share)) for package in self]
+        text = f"package '{name}' not found, searching: {list(dict.fromkeys(reversed(places)))}"
         raise PackageNotFoundError(
             text, package_hint(name, self._layers) or "Is it built, and is its setup file sourced?"
         )
-
-    def search_path(self) -> list[str]:
-        """Where packages are looked for, the uppermost first, each place once."""
-        places = [shown_path(str(package.prefix or package.share)) for package in self]
-        return list(dict.fromkeys(reversed(places)))
 
     def executable(self, package: str, executable: str) -> Target:
         """What runs as `executable` of a package.
@@ -99,7 +95,7 @@ class LaunchedPackages(PackageIndex):
     def get(self, name: str) -> Package:
         """The package of this name, an absent one included."""
         if _why_absent(name, self._layers):
-            return Package(name, place_of(name))
+            return Package(name, _PLACE / name)
         return super().get(name)
 
     def executable(self, package: str, executable: str) -> Target:
@@ -151,8 +147,7 @@ def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError
     if (file := package.libexec / executable).is_file():
         place = shown_path(str(file.resolve()))
         hint = f"The file exists, but is not executable: !chmod +x {place}, then source again."
-        return ExecutableNotFoundError(text, hint)
-    if package.executables:
+    elif package.executables:
         names = ", ".join(sorted(package.executables))
         close = did_you_mean(executable, package.executables)
         hint = f"{close} {package.name} has: {names}.".strip()
@@ -161,16 +156,16 @@ def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError
         if _is_python(package) and module not in {*package.executables, "__init__"} and lying.is_file():
             entry = f"{module} = {package.name}.{module}:main"
             hint += f" For {module}.py add '{entry}' to console_scripts in setup.py, and build again."
-        return ExecutableNotFoundError(text, hint)
-    prefix = shown_path(str(package.prefix or package.share))
-    text = f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
-    hint = (
-        "The package installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
-        f"lib/${{PROJECT_NAME}} RENAME {executable})."
-    )
-    if compiled:
-        hint = f"{package.name} has C++ programs alone, which are not built here: {', '.join(compiled)}."
-        hint = f"{did_you_mean(executable, compiled)} {hint}".strip()
+    else:
+        prefix = shown_path(str(package.prefix or package.share))
+        text = f"package '{package.name}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
+        hint = (
+            "The package installs no program; write in its CMakeLists.txt install(PROGRAMS <file> DESTINATION "
+            f"lib/${{PROJECT_NAME}} RENAME {executable})."
+        )
+        if compiled:
+            hint = f"{package.name} has C++ programs alone, which are not built here: {', '.join(compiled)}."
+            hint = f"{did_you_mean(executable, compiled)} {hint}".strip()
     return ExecutableNotFoundError(text, hint)
 
 
@@ -246,11 +241,6 @@ def seeing(packages: PackageIndex) -> Iterator[None]:
 # The packages that builds find, and those that are not here, with the reason. The names, in `catalog.txt`, are those of
 # packages in the ROS index (https://index.ros.org), and of programs that launch files start.
 
-_WINDOWS = "there are no windows here; lesson.dashboard(), lesson.scene() and the lesson's plots draw into the page"
-_GAZEBO = "there is no Gazebo here; the simulated world is turtlesim"
-_XACRO = "the Python package xacro is not installed: pip install xacro (in a notebook: %pip install xacro)"
-_OTHER = "it is not part of this simulation"
-
 
 def _words(section: str) -> tuple[str, ...]:
     """The words of a section of `catalog.txt`."""
@@ -263,26 +253,26 @@ _WITH_MODULES = _words("programs and modules")
 _ONLY_IMPORTED = _words("modules")
 """Packages that programs import, and launch files and builds hardly ever name."""
 
-_NAMES = {
-    _WINDOWS: _words("names: windows"),
-    _GAZEBO: _words("names: gazebo"),
-    _XACRO: ("xacro",),
-    _OTHER: _WITH_MODULES + _words("names: other"),
+_NOT_HERE = {
+    "there are no windows here; lesson.dashboard(), lesson.scene() and the lesson's plots draw into the page": _words(
+        "not here: windows"
+    ),
+    "there is no Gazebo here; the simulated world is turtlesim": _words("not here: gazebo"),
+    "the Python package xacro is not installed: pip install xacro (in a notebook: %pip install xacro)": ("xacro",),
+    "it is not part of this simulation": _WITH_MODULES + _words("not here: other"),
 }
-_BEGINNINGS = {
-    why: _words(f"beginnings: {kind}") for why, kind in ((_WINDOWS, "windows"), (_GAZEBO, "gazebo"), (_OTHER, "other"))
-}
+"""Why some packages and programs are not available, and their names; `rqt_*` stands for all that begin so, but interfaces."""
+
 _INTERFACES = ("_msgs", "_interfaces", "_srvs", "_actions")
 _PLACE = Path("/opt/ros/not_here/share")
+"""A folder that does not exist: in a launch file, those in it stand for the share folders of packages that are not here."""
 
 
 def why_not_here(name: str) -> str:
     """Why a package or program that robots have is not available; nothing for a name that is none of theirs."""
-    for why, names in _NAMES.items():
-        if name in names:
-            return why
-    for why, beginnings in _BEGINNINGS.items():
-        if name.startswith(beginnings) and not name.endswith(_INTERFACES):
+    for why, names in _NOT_HERE.items():
+        beginnings = tuple(each[:-1] for each in names if each.endswith("*"))
+        if name in names or (name.startswith(beginnings) and not name.endswith(_INTERFACES)):
             return why
     return ""
 
@@ -302,11 +292,6 @@ def missing_module(name: str) -> str:
         f"{name} is a package of ROS 2 that is not available here: a program that needs it runs on a robot "
         f"where it is installed (sudo apt install ros-$ROS_DISTRO-{name.replace('_', '-')}).{_INSTEAD.get(name, '')}"
     )
-
-
-def place_of(name: str) -> Path:
-    """A folder that does not exist, and stands for an absent package's share folder in a launch file."""
-    return _PLACE / name
 
 
 def package_of(path: str | Path) -> str:
