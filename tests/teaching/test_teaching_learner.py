@@ -252,23 +252,9 @@ def test_missing_pages_are_explained(
 ) -> None:
     checkout.unlink()
     assert main(["open"]) == 1
-    assert "the lesson's pages are not here" in capsys.readouterr().err
+    assert "the lesson's pages cannot be found in" in capsys.readouterr().err
     assert main(["open", "--from", str(REAL)]) == 0
     assert main(["open"]) == 0, "pages that are there can be opened without the checkout"
-
-
-def test_a_port_that_is_in_use_is_explained(
-    checkout: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import socket
-
-    monkeypatch.chdir(tmp_path)
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
-        port = taken.getsockname()[1]
-        assert main(["open", "--port", str(port)]) == 1
-    assert f"port {port} cannot be used: address already in use. Without --port" in capsys.readouterr().err
 
 
 def test_readmes_first_command_ends_in_opening_the_lesson() -> None:

@@ -59,9 +59,9 @@ def test_with_version_control_the_published_page_is_what_was_committed(checkout:
 def test_missing_pages_are_said(checkout: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     other = copies.write(tmp_path, "something_else", nbformat.v4.new_notebook())
     assert main(["reset", str(other)]) == 1
-    assert "is not here" in capsys.readouterr().err
+    assert "cannot be found in" in capsys.readouterr().err
     assert main(["reset", str(other), "--from", str(tmp_path / "nowhere")]) == 1
-    assert "there is no something_else.ipynb" in capsys.readouterr().err
+    assert "something_else.ipynb cannot be found in" in capsys.readouterr().err
     assert main(["reset", str(tmp_path / "notes.txt")]) == 1
 
 

@@ -6,7 +6,6 @@ import argparse
 import json
 import os
 import runpy
-import socket
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
@@ -80,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
     opening.add_argument("--no-browser", action="store_true", help="only print the address")
     port = "port of this machine (default: 8888 or the next free one)"
-    opening.add_argument("--port", type=int, metavar="N", help=port)
+    opening.add_argument("--port", type=_number(int, 0, 65535), metavar="N", help=port)
     begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
     opening.add_argument("--take-along", action="store_true", help=begun)
     hub = "be a learner's server of JupyterHub, which calls this command (deploy/jupyterhub shows how)"
@@ -191,7 +190,6 @@ def _open(options: argparse.Namespace) -> int:
     words = ["--Application.log_level=ERROR", *options.more, "--ServerApp.ip=127.0.0.1"]
     words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
     if options.port is not None:
-        _check_free(options.port)
         words += [f"--ServerApp.port={options.port}", "--ServerApp.port_retries=0"]
     if options.no_browser:
         words.append("--no-browser")
@@ -208,19 +206,6 @@ def serve(folder: Path, server: str, options: Sequence[str]) -> int:
     if os.name == "posix":
         os.execve(sys.executable, words, environment)
     return subprocess.call(words, env=environment)
-
-
-def _check_free(port: int) -> None:
-    with socket.socket() as probe:
-        if os.name == "posix":  # as Jupyter's own: a port that was used a moment ago is free
-            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind(("127.0.0.1", port))
-        except (OSError, OverflowError) as error:
-            reason = (getattr(error, "strerror", None) or str(error)).lower().rstrip(".")
-            raise pages.PageError(
-                f"port {port} cannot be used: {reason}. Without --port, a free one is found."
-            ) from None
 
 
 def _reset(options: argparse.Namespace) -> int:

@@ -42,22 +42,16 @@ class PageError(Exception):
 def read(path: Path) -> nbformat.NotebookNode:
     """The notebook in a file. Raises PageError, which says why it cannot be read."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise PageError(f"{path} does not exist") from None
-    except IsADirectoryError:
-        raise PageError(f"{path} is a folder; name the notebook in it") from None
+        content = path.read_bytes()
     except OSError as error:
         raise PageError(f"{path} cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise PageError(f"{path} is not a notebook: it holds no text") from None
-    return parse(text, path)
+    return parse(content, path)
 
 
-def parse(text: str | bytes, path: Path) -> nbformat.NotebookNode:
-    """The notebook in a text. Raises PageError, which says why the text is not a notebook."""
+def parse(content: bytes, path: Path) -> nbformat.NotebookNode:
+    """The notebook in a file's content. Raises PageError, which says why that is not a notebook."""
     try:
-        notebook = nbformat.reads(text, as_version=4)
+        notebook = nbformat.reads(content, as_version=4)
         nbformat.validate(notebook)
     except Exception as error:  # nbformat raises many kinds
         reason = " ".join(str(error).split())[:120]
@@ -83,9 +77,8 @@ def page_of(path: Path, metadata: Any = None) -> str:
     return next((each for each in PAGES if each in path.stem), "")
 
 
-def reset(path: Path, published: str | bytes) -> Path | None:
+def reset(path: Path, content: bytes) -> Path | None:
     """Put a page back into its published state; returns where the learner's copy is kept, None if nothing had changed."""
-    content = published.encode() if isinstance(published, str) else published
     if path.is_file() and path.read_bytes() == content:
         return None
     kept = None
@@ -113,19 +106,19 @@ def published(path: Path, source: Path | None = None) -> bytes:
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
     name = _published_name(path)
     content = find_published(name, source)
-    if content is None and source is not None:
-        raise PageError(f"there is no {name} in {source}")
     if content is None:
-        raise PageError(
-            f"the published {name} is not here (it would be in {PUBLISHED}). Name a folder of published pages: "
-            "--from FOLDER"
-        )
+        raise _missing(name, source)
     if source is None and (PUBLISHED / name).resolve() == path.resolve() and _from_git(name) is None:
         raise PageError(
             f"{name} is the published page itself, and the checkout has no version control that could restore it. "
             "Download the lesson again, and name its folder of notebooks: --from FOLDER"
         )
     return content
+
+
+def _missing(what: str, source: Path | None) -> PageError:
+    where = source or PUBLISHED
+    return PageError(f"{what} cannot be found in {where}. Name a folder of published pages: --from FOLDER")
 
 
 def find_published(name: str, source: Path | None = None) -> bytes | None:
@@ -141,10 +134,10 @@ def _published_name(path: Path) -> str:
     """The page's own file name: that of the copy, or of the page whose name is a part of it."""
     if (PUBLISHED / path.name).is_file():
         return path.name
-    try:
-        page = page_of(path, read(path).metadata)
-    except PageError:  # damaged: all the more reason to reset it
-        page = page_of(path)
+    metadata = None
+    with suppress(PageError):  # damaged: all the more reason to reset it
+        metadata = read(path).metadata
+    page = page_of(path, metadata)
     return f"{page}.ipynb" if page else path.name
 
 
@@ -227,16 +220,14 @@ class LearnersFolder:
                 )
         self._remember()
         if not any((self.path / name).is_file() for name in NAMES):
-            raise PageError(
-                f"the lesson's pages are not here (they would be in {source or PUBLISHED}). Name a folder of "
-                "published pages: --from FOLDER"
-            )
+            raise _missing("the lesson's pages", source)
         return said
 
     def _put(self, name: str, page: nbformat.NotebookNode, made_from: str) -> bool:
         """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
-        path = self.path / name
-        mine = version_of(path)
+        path, mine = self.path / name, ""
+        with suppress(PageError):  # there is none, or no notebook
+            mine = version(read(path))
         if mine != version(page):
             if path.exists() and mine != self._versions.get(name):
                 return False
@@ -249,7 +240,7 @@ class LearnersFolder:
         page = clear(parse(published, path))
         self._versions[path.name] = version(page)
         self._remember()
-        return reset(path, nbformat.writes(page) + "\n")
+        return reset(path, f"{nbformat.writes(page)}\n".encode())
 
     def take_along(self) -> list[str]:
         """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.
@@ -286,12 +277,11 @@ def begun() -> list[str]:
     """The pages in the checkout's `notebooks` that differ from what its version control holds."""
     found = []
     for name in NAMES:
-        committed = find_published(name)
-        mine = PUBLISHED / name
-        if committed is not None and mine.is_file() and mine.read_bytes() != committed:
-            original = clear(parse(committed, mine))
-            if version(clear(read(mine))) != version(original):
-                found.append(name)
+        committed, mine = find_published(name), PUBLISHED / name
+        if committed is None or not mine.is_file() or mine.read_bytes() == committed:
+            continue
+        if version(clear(read(mine))) != version(clear(parse(committed, mine))):
+            found.append(name)
     return found
 
 
@@ -299,11 +289,3 @@ def version(notebook: nbformat.NotebookNode) -> str:
     """A short hash of a notebook's cells: a copy with outputs or changes has another one."""
     cells = [[cell.cell_type, cell.source, cell.get("outputs", [])] for cell in notebook.cells]
     return hashlib.sha256(json.dumps(cells).encode()).hexdigest()[:16]
-
-
-def version_of(path: Path) -> str:
-    """The version of a file; "" if there is no such file, or no notebook in it."""
-    try:
-        return version(read(path))
-    except PageError:
-        return ""

@@ -124,18 +124,11 @@ class Runner:
         home.mkdir()
         desk.mkdir()
         take_fonts(home)
-        words = [
-            sys.executable,
-            "-m",
-            "turtle_lesson.teaching.worker",
-            str(desk),
-            str(self._timeout),
-            str(self._memory),
-        ]
+        worker = [sys.executable, "-m", "turtle_lesson.teaching.worker", str(desk)]
         # A socket, where there is one: a pipe could be opened by the copy, too, through /proc.
         ours, theirs = socket.socketpair() if os.name == "posix" else (None, None)
         process = subprocess.Popen(
-            words,
+            [*worker, str(self._timeout), str(self._memory)],
             cwd=desk,
             env=environment(home, mark, str(HOME.parent)),
             stdin=subprocess.PIPE,

@@ -43,7 +43,7 @@ SHARE = 0.4
 DUE = re.compile(r"^(?![ \t]*#).*?\b(\w+)\.check\(\s*(?:[\"'](\w+)[\"'])?\s*\)", re.MULTILINE)
 """A call of `lesson.check("name")`, or of `case.check()`."""
 
-ALONE = re.compile(r"^(\w+)\.check\(\s*[\"'](\w+)[\"']\s*\)\s*;?\s*(#.*)?$")
+ALONE = re.compile(r"\n?^(\w+)\.check\([ \t]*[\"'](\w+)[\"'][ \t]*\)[ \t]*;?[ \t]*(?:#.*)?$\n?", re.MULTILINE)
 """A line that is nothing else."""
 
 NO_PYTHON = re.compile(r"^\s*%%(?!time\b|capture\b)")
@@ -92,16 +92,13 @@ def main(arguments: list[str]) -> None:
 
 def examine(content: bytes, folder: Path, seconds: float, sent: dict[str, Any]) -> Generator[dict[str, Any]]:
     """Run a copy for at most `seconds` of computing: its metadata and what it asks for, then what is found, and an end."""
-    try:
-        notebook = _parsed(content)
-    except EndedEarly as reason:
-        yield {"problem": str(reason), "end": True}
-        return
-    cells = [(number, cell) for number, cell in enumerate(notebook["cells"], start=1) if cell["cell_type"] == "code"]
-    asked = [name for _, cell in cells for _, _, name in _parts(_source(cell)) if name]
-    yield {"metadata": notebook.get("metadata"), "asked": asked}
     kernel = Kernel(folder, seconds, sent)
     try:
+        notebook = _parsed(content)
+        numbered = enumerate(notebook["cells"], start=1)
+        cells = [(number, cell) for number, cell in numbered if cell["cell_type"] == "code"]
+        asked = [name for _, cell in cells for _, _, name in _parts(_source(cell)) if name]
+        yield {"metadata": notebook.get("metadata"), "asked": asked}
         yield {"kernel": kernel.start()}
         for number, cell in cells:
             yield from _run(kernel, number, cell)
@@ -118,16 +115,14 @@ def examine(content: bytes, folder: Path, seconds: float, sent: dict[str, Any]) 
 def _parsed(content: bytes) -> dict[str, Any]:
     """The notebook in a file's content, as JSON has it. Raises EndedEarly, which says why it is none."""
     with contextlib.suppress(ValueError, RecursionError, AttributeError, KeyError, TypeError):
-        found = json.loads(content.decode("utf-8-sig"))
+        found = json.loads(content)
         if found.get("nbformat") == 4 and all({"cell_type", "source"} <= cell.keys() for cell in found["cells"]):
             return dict(found)
     # For older formats, and to say what is wrong; nbformat, which this imports, takes seconds.
     from .pages import PageError, parse
 
     try:
-        return dict(parse(content.decode("utf-8-sig"), Path("it")))
-    except UnicodeDecodeError:
-        raise EndedEarly("is not a notebook: it holds no text") from None
+        return dict(parse(content, Path("it")))
     except PageError as error:
         raise EndedEarly(str(error).removeprefix("it ")) from None
 
@@ -156,18 +151,13 @@ def _parts(source: str) -> list[tuple[str, str, str]]:
     """A cell's code up to each check that is due, the name of the lesson there, and the check's; "" for none at the end."""
     if NO_PYTHON.match(source):
         return [(source, "", "")]
-    parts, lines = list[tuple[str, str, str]](), list[str]()
-    for line in [*source.splitlines(), None]:
-        alone = None if line is None else ALONE.match(line)
-        if line is not None and alone is None:
-            lines.append(line)
-            continue
-        code = "\n".join(lines)
-        due = [(variable, name or "trouble") for variable, name in DUE.findall(code)]
-        due += [(alone[1], alone[2])] if alone else []
-        parts.append((code, *(due or [("", "")])[0]))
-        parts += [("", *each) for each in due[1:]]
-        lines.clear()
+    parts = []
+    pieces = iter([*ALONE.split("\n".join(source.splitlines())), "", ""])
+    for code, variable, name in zip(pieces, pieces, pieces, strict=True):
+        within = [(lesson, check or "trouble") for lesson, check in DUE.findall(code)]
+        for due in [*within, (variable, name)]:
+            parts.append((code, *due))
+            code = ""
     return [part for part in parts if any(part)]
 
 
