@@ -325,20 +325,29 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
         ("input()\n", "EOFError"),
         ("def f():\n    f()\nf()\n", "RecursionError"),
         ("\0", "SyntaxError"),
-        (SETUP.format("packages='py_demo'"), "'packages' must be a list of module names"),
+        (SETUP.format("packages='py_demo'"), "'packages' cannot have 'py_demo'"),
         (SETUP.format("py_modules=['x']"), "py_modules=… is not carried out in this simulation"),
         (SETUP.format("packages=['py_demo'], package_dir={'': '../..'}"), "lies outside the package's folder"),
-        (SETUP.format("data_files=[(1, 2)]"), "which is not of the form ('folder', ['file', …])"),
-        (SETUP.format("data_files={'a': 1}"), "which is not of the form ('folder', ['file', …])"),
-        (SETUP.format("data_files=[3, None]"), "which is not of the form ('folder', ['file', …])"),
-        (SETUP.format("data_files=[('share/py_demo', 'setup.py')]"), "write ('share/py_demo', ['setup.py'])"),
+        (SETUP.format("data_files=[(1, 2)]"), "It looks like data_files=[('share/py_demo', ['package.xml'])]."),
+        (SETUP.format("data_files={'a': 1}"), "It looks like data_files=[('share/py_demo', ['package.xml'])]."),
+        (SETUP.format("data_files=[3, None]"), "It looks like data_files=[('share/py_demo', ['package.xml'])]."),
+        (
+            SETUP.format("data_files=[('share/py_demo', 'setup.py')]"),
+            "It looks like data_files=[('share/py_demo', ['package.xml'])].",
+        ),
         (
             SETUP.format("data_files=[('share/py_demo', [__import__('os').path.abspath('setup.cfg')])]"),
             "relative to the folder of setup.py: 'setup.cfg'",
         ),
         (SETUP.format("entry_points={'console_scripts': 5}"), "Invalid entry point"),
-        (SETUP.format("entry_points=[5]"), "entry_points must be a dictionary"),
-        (SETUP.format("entry_points='[console_scripts]'"), "entry_points must be a dictionary"),
+        (
+            SETUP.format("entry_points=[5]"),
+            "It looks like entry_points={'console_scripts': ['my_node = py_demo.my_node:main']}.",
+        ),
+        (
+            SETUP.format("entry_points='[console_scripts]'"),
+            "It looks like entry_points={'console_scripts': ['my_node = py_demo.my_node:main']}.",
+        ),
     ],
 )
 def test_a_setup_py_full_of_nonsense(

@@ -19,7 +19,14 @@ from .setup_py import SetupError, install_scripts, read_setup
 
 SITE = PYTHON_FOLDERS["python"]
 _ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
-_PROGRAMS = ("console_scripts", "gui_scripts")
+_EXAMPLES: dict[str, list[Any] | dict[str, Any]] = {
+    "packages": ["my_package"],
+    "package_dir": {"": "src"},
+    "package_data": {"my_package": ["*.yaml"]},
+    "data_files": [("share/my_package", ["package.xml"])],
+    "entry_points": {"console_scripts": ["my_node = my_package.my_node:main"]},
+}
+"""What the options look like that are carried out."""
 
 
 def build_ament_python(found: Found, environment: Environment) -> Outcome:
@@ -45,6 +52,8 @@ class _Build:
         self.hints: list[str] = []
         self.warnings: list[str] = []
         self.setup: dict[str, Any] = {}
+        self.packages: list[str] = []
+        self.entries: dict[str, list[str]] = {}
 
     def run(self) -> Outcome:
         folder, fault = self.found.path, self.found.xml_error
@@ -57,6 +66,7 @@ class _Build:
                 hint += " There is a CMakeLists.txt: is <build_type>ament_cmake</build_type> meant in package.xml?"
             raise BuildFailure(f"error: there is no setup.py in {shown_path(str(folder))}\n", hint, seconds=0.1)
         self.setup = read_setup(folder)
+        self._check_options()
         name = str(self.setup.get("name", ""))
         if name.replace("-", "_") != self.found.name.replace("-", "_"):
             self.hints.append(
@@ -66,66 +76,65 @@ class _Build:
             self.hints.append("setup.py has commands of its own (cmdclass=…), which are not carried out here.")
         items = [*self._modules(), *self._data(), *self._programs()]
         check_targets(items, self.found.name)
-        seconds = 1.7 if self.environment.symlink else 1.3
         text = with_hint("".join(self.warnings), self.hints)
-        return Outcome(0, text, [], seconds, items)
+        return Outcome(stderr=text, seconds=1.7 if self.environment.symlink else 1.3, items=items)
+
+    def _check_options(self) -> None:
+        for option, example in _EXAMPLES.items():
+            given = self.setup[option] = self.setup.get(option) or type(example)()
+            if not isinstance(given, type(example)):
+                raise self._wrong(option, given)
+        # setuptools takes a/b for a.b, too.
+        self.packages = [str(name).replace("/", ".").strip(".") for name in self.setup["packages"]]
+        for name in self.packages:
+            if not all(map(str.isidentifier, name.split("."))):
+                raise self._wrong("packages", name)
+        groups = self.setup["entry_points"].items()
+        self.entries = {group: [*map(str, lines if isinstance(lines, list) else [lines])] for group, lines in groups}
+        if self.setup.get("py_modules"):
+            hint = "Put the modules into a package, a folder with an __init__.py, and name that in packages=[…]."
+            raise _refused("error: py_modules=… is not carried out in this simulation", hint)
+
+    def _wrong(self, option: str, given: object) -> BuildFailure:
+        text = f"error in {self.found.name} setup command: {option!r} cannot have {str(given)[:80]!r}"
+        return _refused(text, f"It looks like {option}={_EXAMPLES[option]}.".replace("my_package", self.found.name))
 
     # -- modules ---------------------------------------------------------------------------------------------------
 
     def _modules(self) -> list[Item]:
         items = []
-        packages = self._packages()
-        top = sorted({name.partition(".")[0] for name in packages})
-        for name in packages:
+        top = sorted({name.partition(".")[0] for name in self.packages})
+        for name in self.packages:
             if not self._folder(name).is_dir():
                 place = self._folder(name).relative_to(self.found.path).as_posix()
                 hint = f"setup.py names it in packages=…; make {place}/__init__.py."
                 raise _refused(f"error: package directory '{place}' does not exist", hint)
-        for name in top if self.environment.symlink else dict.fromkeys(packages):
+        for name in top if self.environment.symlink else dict.fromkeys(self.packages):
             folder = self._folder(name)  # with --symlink-install, colcon puts the whole source folder on the path
             files = files_in(folder) if self.environment.symlink else self._files_of(name)
             place = f"{SITE}/{name.replace('.', '/')}"
             items += [Item(f"{place}/{file.relative_to(folder).as_posix()}", file) for file in files]
-        if self.setup.get("py_modules"):
-            hint = "Put the modules into a package, a folder with an __init__.py, and name that in packages=[…]."
-            raise _refused("error: py_modules=… is not carried out in this simulation", hint)
         version = self.setup.get("version", "0.0.0")
         texts = {
             "PKG-INFO": f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n",
             "entry_points.txt": "\n".join(
-                f"[{group}]\n" + "".join(f"{line.strip()}\n" for line in lines)
-                for group, lines in self._entries().items()
+                "\n".join([f"[{group}]", *map(str.strip, lines), ""]) for group, lines in self.entries.items()
             ),
-            "top_level.txt": "".join(f"{name}\n" for name in top),
         }
         info = f"{SITE}/{self.found.name}-{version}-py{PYTHON.removeprefix('python')}.egg-info"
         return items + [Item(f"{info}/{name}", text=text) for name, text in texts.items()]
 
     def _files_of(self, package: str) -> list[Path]:
         """What is installed of a package: its own modules, and the other files that `package_data=` names."""
-        folder = self._folder(package)
-        patterns = self.setup.get("package_data") or {}
-        patterns = patterns if isinstance(patterns, dict) else {}
+        folder, patterns = self._folder(package), self.setup["package_data"]
         wanted = ["*.py", *_texts(patterns.get("")), *_texts(patterns.get(package))]
-        found = [match for pattern in wanted for match in glob(str(folder / pattern), recursive=True)]
-        inside = [Path(os.path.normpath(match)) for match in found]
-        return sorted(
-            {file for file in inside if file.is_file() and file.is_relative_to(folder) and file.suffix != ".pyc"}
-        )
-
-    def _packages(self) -> list[str]:
-        """What `packages=` lists. setuptools takes `a/b` for `a.b`, too."""
-        given = self.setup.get("packages") or []
-        names = [str(name).replace("/", ".").strip(".") for name in given] if isinstance(given, list) else [""]
-        if not all(map(str.isidentifier, ".".join(names or ["a"]).split("."))):
-            text = f"error in {self.found.name} setup command: 'packages' must be a list of module names"
-            raise _refused(text, f"Write packages=['{self.found.name}'], with brackets.")
-        return names
+        matches = {match for pattern in wanted for match in glob(pattern, root_dir=folder, recursive=True)}
+        found = {Path(os.path.normpath(folder / match)) for match in matches if not match.endswith(".pyc")}
+        return sorted(file for file in found if file.is_file() and file.is_relative_to(folder))
 
     def _folder(self, package: str) -> Path:
         """Where a package lies: in its own folder, unless `package_dir=` says otherwise."""
-        given = self.setup.get("package_dir") or {}
-        places = {str(name): str(place) for name, place in given.items()} if isinstance(given, dict) else {}
+        places = {name: str(place) for name, place in self.setup["package_dir"].items()}
         top, *inner = package.split(".")
         place = places.get(top) or "/".join(filter(None, (places.get("", ""), top)))
         folder = self.found.path.joinpath(place, *inner)
@@ -138,15 +147,10 @@ class _Build:
 
     def _data(self) -> list[Item]:
         items = []
-        given = self.setup.get("data_files") or []
-        for entry in given if isinstance(given, list) else [given]:
+        for entry in self.setup["data_files"]:
             place, files = entry if isinstance(entry, list) and len(entry) == 2 else ("", None)
-            if isinstance(files, str):
-                hint = f"data_files needs a list of files, even for a single one: write ('{place}', ['{files}'])."
-                raise _refused("AssertionError", hint)
             if not isinstance(files, list) or not all(isinstance(name, str) for name in [place, *files]):
-                text = f"error: data_files has {str(entry)[:80]}, which is not of the form ('folder', ['file', …])"
-                raise _refused(text, "Write ('share/' + package_name, ['package.xml']),.")
+                raise self._wrong("data_files", entry)
             items += [self._data_file(place, name) for name in files]
         # What ROS 2 finds the package by, which colcon adds where setup.py does not name it.
         name = self.found.name
@@ -154,17 +158,16 @@ class _Build:
         marker = f"share/ament_index/resource_index/packages/{name}"
         start = f"WARNING:colcon.colcon_ros.task.ament_python.build:Package '{name}' doesn't explicitly install"
         end = "(colcon-ros currently does it implicitly but that fallback will be removed in the future)\n"
-        if self.found.kind == "python":
-            if marker not in targets:
+        xml = Item(f"share/{name}/package.xml", self.found.path / "package.xml")
+        for what, item in (("a marker in the package index", Item(marker)), ("the 'package.xml' file", xml)):
+            if item.target in targets:
+                continue
+            if self.found.kind != "python":
+                self.warnings.append(f"{start} {what} {end}")
+                items.append(item)
+            elif item.target == marker:
                 entry = f"('{marker.rpartition('/')[0]}', ['resource/{name}'])"
                 self.hints.append(f"ros2 does not find {name} on a robot: add {entry} to data_files in setup.py.")
-            return items
-        if marker not in targets:
-            self.warnings.append(f"{start} a marker in the package index {end}")
-            items.append(Item(marker))
-        if f"share/{name}/package.xml" not in targets:
-            self.warnings.append(f"{start} the 'package.xml' file {end}")
-            items.append(Item(f"share/{name}/package.xml", self.found.path / "package.xml"))
         return items
 
     def _data_file(self, place: str, name: str) -> Item:
@@ -181,14 +184,6 @@ class _Build:
 
     # -- programs --------------------------------------------------------------------------------------------------
 
-    def _entries(self) -> dict[str, list[str]]:
-        """The lines of each group of entry points."""
-        groups = self.setup.get("entry_points") or {}
-        if not isinstance(groups, dict):
-            hint = "Write entry_points={'console_scripts': ['name = package.module:main']},."
-            raise _refused("error: entry_points must be a dictionary", hint)
-        return {group: list(map(str, lines if isinstance(lines, list) else [lines])) for group, lines in groups.items()}
-
     def _programs(self) -> list[Item]:
         place = install_scripts(self.found.path)
         items = []
@@ -197,8 +192,7 @@ class _Build:
             if not source.is_file():
                 raise _refused(f"error: file '{source}' does not exist", f"setup.py names {name} in scripts=….")
             items.append(Item(f"{place or 'bin'}/{source.name}", source, program=True))
-        groups = self._entries()
-        for line in [line for group in _PROGRAMS for line in groups.get(group, [])]:
+        for line in [*self.entries.get("console_scripts", []), *self.entries.get("gui_scripts", [])]:
             match = _ENTRY.fullmatch(line)
             if match is None:
                 text = f"error in {self.found.name} setup command: ('Invalid entry point: ', {line!r})"
@@ -218,7 +212,7 @@ class _Build:
         """A real build does not look; the program would end with an error when it is run."""
         file = self._folder(module)
         source = file.with_suffix(".py") if file.with_suffix(".py").is_file() else file / "__init__.py"
-        own = module.partition(".")[0] in {each.partition(".")[0] for each in self._packages()}
+        own = module.partition(".")[0] in {each.partition(".")[0] for each in self.packages}
         if source.is_file():
             text = source.read_text(encoding="utf-8", errors="replace")
             if not re.search(rf"\b{re.escape(function.partition('.')[0])}\b", text):
