@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import shlex
 import sys
@@ -27,7 +28,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def create(line: str) -> tuple[int, str, str]:
     out, err = io.StringIO(), io.StringIO()
-    return create_package(parse(shlex.split(line)), stdout=out, stderr=err), out.getvalue(), err.getvalue()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = create_package(parse(shlex.split(line)))
+    return code, out.getvalue(), err.getvalue()
 
 
 def recorded() -> list[tuple[str, int, str, str]]:

@@ -224,8 +224,8 @@ def test_reset_of_a_page_that_does_not_exist_changes_nothing(mine: Workspace) ->
 
 def test_what_pkg_create_made_is_replaced_without_a_question(mine: Workspace) -> None:
     def create_anew() -> None:
-        words = [mine.package.name, "--build-type", "ament_cmake"]
-        create.create_package(parse(words), cwd=mine.package.parent, stdout=io.StringIO())
+        words = [mine.package.name, "--build-type", "ament_cmake", "--destination-directory", str(mine.package.parent)]
+        create.create_package(parse(words))
 
     mine.package.parent.mkdir(parents=True)
     create_anew()

@@ -9,9 +9,8 @@ import argparse
 import os
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TextIO
 
 from ..runtime import files
 from ..sim.errors import shown_path
@@ -52,35 +51,33 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--library-name", help="not available here: C++ is not compiled")
 
 
-def create_package(
-    args: argparse.Namespace, *, cwd: Path | None = None, stdout: TextIO | None = None, stderr: TextIO | None = None
-) -> int:
-    """Make the package that `args` (see `add_arguments`) asks for, in paths from `cwd` on; return the exit code."""
-    out, err = stdout or sys.stdout, stderr or sys.stderr
+def create_package(args: argparse.Namespace) -> int:
+    """Make the package that `args` (see `add_arguments`) asks for, and say so; return the exit code."""
     if args.license == "?":
-        print("Supported licenses:", *LICENCES, sep="\n", file=out)
+        print("Supported licenses:", *LICENCES, sep="\n")
         return 0
-    if problem := _refusal(args, cwd or Path.cwd()):
-        print(f"\nAborted!\n{problem}", file=err)
+    root = os.path.join(args.destination_directory, args.package_name)
+    if problem := _refusal(args, root):
+        print(f"\nAborted!\n{problem}", file=sys.stderr)
         return 1
     try:
-        _Creation(args, cwd or Path.cwd(), out).run()
+        _create(args, root)
     except OSError as error:
-        print(f"\nAborted!\n{args.package_name} cannot be written: {error.strerror or error}", file=err)
+        print(f"\nAborted!\n{args.package_name} cannot be written: {error.strerror or error}", file=sys.stderr)
         return 1
     if not re.fullmatch(r"[a-z][a-z0-9_]*", args.package_name):
         rule = "ROS 2 wants small letters, digits and '_', beginning with a letter"
-        print(f"[WARNING]: the package name '{args.package_name}' will be refused by colcon build: {rule}.", file=err)
+        said = f"[WARNING]: the package name '{args.package_name}' will be refused by colcon build: {rule}."
+        print(said, file=sys.stderr)
     return 0
 
 
-def _refusal(args: argparse.Namespace, cwd: Path) -> str:
-    shown = os.path.join(args.destination_directory, args.package_name)
+def _refusal(args: argparse.Namespace, root: str) -> str:
     if _UNWRITABLE.search(args.package_name):
         return f"'{args.package_name}' cannot be the name of a folder; a name looks like robot_controller"
-    if (cwd / args.destination_directory / args.package_name).exists():
+    if os.path.exists(root):
         advice = "Either remove the directory or choose a different destination directory or package name"
-        return f"The directory already exists: {shown}\n{advice}"
+        return f"The directory already exists: {root}\n{advice}"
     if args.node_name and not re.fullmatch(r"[A-Za-z_]\w*", args.node_name):
         return f"--node-name '{args.node_name}' cannot be the name of a program: use letters, digits and '_'"
     if args.library_name:
@@ -88,126 +85,102 @@ def _refusal(args: argparse.Namespace, cwd: Path) -> str:
     return ""
 
 
-class _Creation:
-    """One run of the command."""
-
-    def __init__(self, args: argparse.Namespace, cwd: Path, out: TextIO) -> None:
-        self.args = args
-        self.name: str = args.package_name
-        self.maintainer = (args.maintainer_name, args.maintainer_email or f"{args.maintainer_name}@todo.todo")
-        self.dependencies = list(dict.fromkeys(args.dependencies))
-        self.destination = cwd / args.destination_directory
-        self.out = out
-
-    def run(self) -> None:
-        args = self.args
-        lines = {
-            "package name": self.name,
-            "destination directory": shown_path(os.path.abspath(self.destination)),
-            "package format": args.package_format,
-            "version": "0.0.0",
-            "description": args.description,
-            "maintainer": ["{} <{}>".format(*self.maintainer)],
-            "licenses": [args.license],
-            "build type": args.build_type,
-            "dependencies": self.dependencies,
-            "node_name": args.node_name,
-        }
-        self._say("going to create a new package")
-        for what, value in lines.items():
-            if value is not None:
-                self._say(f"{what}: {value}")
-        files.check(self.destination / self.name)
-        self._folder()
-        self._file(self._package_xml(), "package.xml")
-        if args.build_type == "ament_python":
-            self._python_files()
+def _create(args: argparse.Namespace, root: str) -> None:
+    """Write the package's files, with the real tool's words about each."""
+    args.maintainer_email = args.maintainer_email or f"{args.maintainer_name}@todo.todo"
+    args.dependencies = list(dict.fromkeys(args.dependencies))
+    lines = {
+        "package name": args.package_name,
+        "destination directory": shown_path(os.path.abspath(args.destination_directory)),
+        "package format": args.package_format,
+        "version": "0.0.0",
+        "description": args.description,
+        "maintainer": [f"{args.maintainer_name} <{args.maintainer_email}>"],
+        "licenses": [args.license],
+        "build type": args.build_type,
+        "dependencies": args.dependencies,
+        "node_name": args.node_name,
+    }
+    print("going to create a new package")
+    for what, value in lines.items():
+        if value is not None:
+            print(f"{what}: {value}")
+    folder = files.check(Path(root))
+    print(f"creating folder {root}")
+    folder.mkdir(parents=True)
+    for name, text in _python_files(args) if args.build_type == "ament_python" else _cmake_files(args):
+        print(f"creating {'folder ' if text is None else ''}{os.path.join(root, name)}")
+        if text is None:
+            (folder / name).mkdir(parents=True)
         else:
-            self._cmake_files()
-        if args.license in LICENCES:
-            text = filled("LICENSE", identifier=args.license, holder=args.maintainer_name)
-            (self.destination / self.name / "LICENSE").write_text(text, encoding="utf-8")
-            return
-        self._say(
-            f"\n[WARNING]: Unknown license '{args.license}'.  This has been set in the package.xml, but no LICENSE file has "
-            "been created.\nIt is recommended to use one of the ament license identitifers:\n" + "\n".join(LICENCES)
-        )
-
-    def _say(self, text: str) -> None:
-        print(text, file=self.out)
-
-    def _folder(self, *inner: str) -> None:
-        self._say(f"creating folder {os.path.join(self.args.destination_directory, self.name, *inner)}")
-        self.destination.joinpath(self.name, *inner).mkdir(parents=True, exist_ok=True)
-
-    def _file(self, text: str, *inner: str) -> None:
-        self._say(f"creating {os.path.join(self.args.destination_directory, self.name, *inner)}")
-        self.destination.joinpath(self.name, *inner).write_text(text, encoding="utf-8")
-
-    def _package_xml(self) -> str:
-        from xml.sax.saxutils import escape, quoteattr  # imports urllib.request: 5 ms and 0.6 MB
-
-        args, (maintainer, email) = self.args, self.maintainer
-        blocks = [
-            [
-                f"<name>{escape(self.name)}</name>",
-                "<version>0.0.0</version>",
-                f"<description>{escape(args.description)}</description>",
-                f"<maintainer email={quoteattr(email)}>{escape(maintainer)}</maintainer>",
-                f"<license>{escape(args.license)}</license>",
-            ],
-            [] if args.build_type == "ament_python" else [f"<buildtool_depend>{args.build_type}</buildtool_depend>"],
-            [f"<depend>{escape(each)}</depend>" for each in self.dependencies],
-            [f"<test_depend>{each}</test_depend>" for each in _TEST_DEPENDS[args.build_type]],
-            ["<export>", f"  <build_type>{args.build_type}</build_type>", "</export>"],
-        ]
-        body = "\n\n".join("\n".join(f"  {line}" for line in block) for block in blocks if block)
-        return filled("package.xml", format=args.package_format, body=body)
-
-    def _python_files(self) -> None:
-        args, name, node = self.args, self.name, self.args.node_name
-        self._say("creating source folder")
-        self._folder(name)
-        setup = filled(
-            "setup.py",
-            name=name,
-            maintainer=repr(self.maintainer[0]),
-            email=repr(self.maintainer[1]),
-            description=repr(args.description),
-            licence=repr(args.license),
-            scripts=f"            '{node} = {name}.{node}:main'\n" if node else "",
-        )
-        self._file(setup, "setup.py")
-        self._file(filled("setup.cfg", name=name), "setup.cfg")
-        self._folder("resource")
-        self._file("", "resource", name)
-        self._file("", name, "__init__.py")
-        self._folder("test")
-        for tool, call in _STYLE_CALLS.items():
-            skip = "@pytest.mark.skip(reason='The files have no copyright lines yet')\n" if tool == "copyright" else ""
-            test = filled("style test", tool=tool, call=call, function=call.partition("(")[0], skip=skip)
-            self._file(test, "test", f"test_{tool}.py")
-        if node:
-            self._file(filled("program.py", name=name), name, f"{node}.py")
-
-    def _cmake_files(self) -> None:
-        name, node = self.name, self.args.node_name
-        self._say("creating source and include folder")
-        self._folder("src")
-        self._folder("include", name)
-        ament = self.args.build_type == "ament_cmake"
-        self._file(cmake_lists(name, self.dependencies, ament=ament, node=node), "CMakeLists.txt")
-        if node:
-            self._file(filled("program.cpp", name=name), "src", f"{node}.cpp")
+            (folder / name).write_text(text, encoding="utf-8")
+    if args.license in LICENCES:
+        text = filled("LICENSE", identifier=args.license, holder=args.maintainer_name)
+        (folder / "LICENSE").write_text(text, encoding="utf-8")
+        return
+    print(
+        f"\n[WARNING]: Unknown license '{args.license}'.  This has been set in the package.xml, but no LICENSE file has "
+        "been created.\nIt is recommended to use one of the ament license identitifers:\n" + "\n".join(LICENCES)
+    )
 
 
-def cmake_lists(
-    name: str,
-    dependencies: Sequence[str] = (),
-    *,
-    ament: bool = True,
-    node: str | None = None,
-) -> str:
+def _package_xml(args: argparse.Namespace) -> str:
+    from xml.sax.saxutils import escape, quoteattr  # imports urllib.request: 5 ms and 0.6 MB
+
+    blocks = [
+        [
+            f"<name>{escape(args.package_name)}</name>",
+            "<version>0.0.0</version>",
+            f"<description>{escape(args.description)}</description>",
+            f"<maintainer email={quoteattr(args.maintainer_email)}>{escape(args.maintainer_name)}</maintainer>",
+            f"<license>{escape(args.license)}</license>",
+        ],
+        [] if args.build_type == "ament_python" else [f"<buildtool_depend>{args.build_type}</buildtool_depend>"],
+        [f"<depend>{escape(each)}</depend>" for each in args.dependencies],
+        [f"<test_depend>{each}</test_depend>" for each in _TEST_DEPENDS[args.build_type]],
+        ["<export>", f"  <build_type>{args.build_type}</build_type>", "</export>"],
+    ]
+    body = "\n\n".join("\n".join(f"  {line}" for line in block) for block in blocks if block)
+    return filled("package.xml", format=args.package_format, body=body)
+
+
+def _python_files(args: argparse.Namespace) -> Iterator[tuple[str, str | None]]:
+    """The files of an ament_python package with their texts, and its folders, which have none."""
+    name, node = args.package_name, args.node_name
+    yield "package.xml", _package_xml(args)
+    print("creating source folder")
+    yield name, None
+    texts = {
+        word: repr(getattr(args, word)) for word in ("maintainer_name", "maintainer_email", "description", "license")
+    }
+    scripts = f"            '{node} = {name}.{node}:main'\n" if node else ""
+    yield "setup.py", filled("setup.py", name=name, scripts=scripts, **texts)
+    yield "setup.cfg", filled("setup.cfg", name=name)
+    yield "resource", None
+    yield f"resource/{name}", ""
+    yield f"{name}/__init__.py", ""
+    yield "test", None
+    for tool, call in _STYLE_CALLS.items():
+        skip = "@pytest.mark.skip(reason='The files have no copyright lines yet')\n" if tool == "copyright" else ""
+        text = filled("style test", tool=tool, call=call, function=call.partition("(")[0], skip=skip)
+        yield f"test/test_{tool}.py", text
+    if node:
+        yield f"{name}/{node}.py", filled("program.py", name=name)
+
+
+def _cmake_files(args: argparse.Namespace) -> Iterator[tuple[str, str | None]]:
+    """The files of a package that CMake builds with their texts, and its folders, which have none."""
+    name, node = args.package_name, args.node_name
+    yield "package.xml", _package_xml(args)
+    print("creating source and include folder")
+    yield "src", None
+    yield f"include/{name}", None
+    yield "CMakeLists.txt", cmake_lists(name, args.dependencies, ament=args.build_type == "ament_cmake", node=node)
+    if node:
+        yield f"src/{node}.cpp", filled("program.cpp", name=name)
+
+
+def cmake_lists(name: str, dependencies: Sequence[str] = (), *, ament: bool = True, node: str | None = None) -> str:
     """A `CMakeLists.txt`, for a C++ program `node` where it is asked for."""
     names = "".join(f"\n  {each}" for each in dependencies)
     linked = f"ament_target_dependencies(\n  {{}}{names}\n)\n" if names and ament else ""

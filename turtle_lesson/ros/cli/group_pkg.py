@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
@@ -116,7 +115,7 @@ def path_of(package: Package, executable: str) -> Path:
 @verb("pkg create", add_create_arguments, in_cell=True)
 def _create(args: Namespace) -> int:
     """Create a new package."""
-    return create_package(args, cwd=Path.cwd(), stdout=sys.stdout, stderr=sys.stderr)
+    return create_package(args)
 
 
 # -- interface ---------------------------------------------------------------------------------------------------------
