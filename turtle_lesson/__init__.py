@@ -8,6 +8,7 @@ a real robot.
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -42,17 +43,11 @@ def load_ipython_extension(shell: Any) -> None:
 
 
 def __getattr__(name: str) -> Any:
-    if name in {"Lesson", "start"}:
-        with defer_sigint():
-            from .session import lesson
-
-        return getattr(lesson, name)
-    if name in {"Robot", "connect"}:
-        with defer_sigint():
-            from .session import robot
-
-        return getattr(robot, name)
-    raise AttributeError(f"module 'turtle_lesson' has no attribute {name!r}")
+    room = {"Lesson": "lesson", "start": "lesson", "Robot": "robot", "connect": "robot"}.get(name)
+    if room is None:
+        raise AttributeError(f"module 'turtle_lesson' has no attribute {name!r}")
+    with defer_sigint():
+        return getattr(import_module(f"turtle_lesson.session.{room}"), name)
 
 
 with defer_sigint():

@@ -74,7 +74,7 @@ def address(place: Path) -> Iterator[str]:
             for name, more in words.items()
         ]
     try:
-        while not file.exists():
+        while not (file.exists() and file.read_text()):  # it is written a moment after it was made
             assert started[0].poll() is None, (place / "cluster.log").read_text()
             time.sleep(0.1)
         yield json.loads(file.read_text())["address"]

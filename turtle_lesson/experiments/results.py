@@ -148,10 +148,10 @@ class Results(Table):
         amount = sum(len(numbers) for _, numbers, _ in parts)
         if not amount:
             return Picture(f"There is no {column} to draw: {self.summary}.")
-        names = [column if by is None else f"{by} {text_of(value) or 'None'}" for value, _, _ in parts]
+        labels = ["all runs" if by is None else text_of(value) or "None" for value, _, _ in parts]
+        names = [column if by is None else f"{by} {label}" for label in labels]
         told = [_in_words(name, numbers, runs) for name, (_, numbers, runs) in zip(names, parts, strict=True)]
         text = f"{column} of {count(amount, 'run')}{'' if by is None else f' by {by}'}. {' '.join(told)}"
-        labels = ["all runs" if by is None else text_of(value) or "None" for value, _, _ in parts]
         with drawing.applied():
             return Picture(text, _draw(column, by, labels, [numbers for _, numbers, _ in parts], amount))
 

@@ -127,10 +127,7 @@ def save(table: Table, head: dict[str, Any], path: Path) -> Path:
         files.write(path, text.getvalue())
     else:
         arrow, parquet = _pyarrow()
-        types = {"int": arrow.int64(), "float": arrow.float64(), "bool": arrow.bool_()}
-        fields = [(name, types.get(kind, arrow.string())) for name, kind in kinds.items()]
-        schema = arrow.schema(fields, metadata={KEY: json.dumps(head)})
-        parquet.write_table(arrow.Table.from_pylist(cells, schema=schema), path)
+        parquet.write_table(arrow.Table.from_pylist(cells).replace_schema_metadata({KEY: json.dumps(head)}), path)
     return path
 
 

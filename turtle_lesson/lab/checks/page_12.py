@@ -18,7 +18,7 @@ from ..words import count, number
 from .assertions import learner_function, no_errors, node
 from .navigation import MIDDLE, POSE, POSE_TYPE, Way, drive, is_moving, missed, put
 from .page_10 import running
-from .probe import Probe, remembered
+from .probe import Probe
 from .registry import Expectation, check, expectation
 from .results import ENDLESS, CannotLook, Seen, Stopped, hinted, never_returned
 
@@ -86,11 +86,6 @@ def make_trip(probe: Probe, seed: int, **options: float) -> Trip:
     return Trip(seed, returned, raised, times[-1] - times[0] if times else 0.0)
 
 
-@remembered
-def _quick(probe: Probe) -> Trip:
-    return _one(make_trip(probe, QUICK_SEEDS[0]), late=False)
-
-
 def _one(trip: Trip, late: bool) -> Trip:
     """A trip of which it is beyond doubt whether it came late. Raises CannotLook where it is not."""
     if not trip.moved:
@@ -101,7 +96,7 @@ def _one(trip: Trip, late: bool) -> Trip:
 
 
 def _returns_seconds(probe: Probe) -> Seen:
-    trip = _quick(probe)
+    trip = _one(make_trip(probe, QUICK_SEEDS[0]), late=False)
     if isinstance(trip.raised, (NameError, TypeError, AttributeError)):
         raise trip.raised
     said = trip.returned.get("seconds") if isinstance(trip.returned, dict) else None

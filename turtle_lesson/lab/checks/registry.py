@@ -135,7 +135,7 @@ def find(name: object) -> Check:
     known = {each.name: each for each in all_checks()}
     if isinstance(name, str) and name in known:
         return known[name]
-    raise ValueError(f"there is no check {name!r}. {suggestion(str(name), known)}")
+    raise ValueError(f"there is no check {name!r}. {suggestion(name if isinstance(name, str) else '', known)}")
 
 
 ODD = "Run the cells from the set-up cell on again; if it stays, compare your interfaces and types with the page's."

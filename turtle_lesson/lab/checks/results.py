@@ -8,10 +8,12 @@ from __future__ import annotations
 import html
 import textwrap
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from types import FrameType
+from traceback import FrameSummary
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rclpy import executors
 
 from ...ros.sim import errors
 from ...ros.sim.errors import DriveTimeout, NeverReturns
@@ -264,9 +266,6 @@ STOP_ADVICE = Advice(
 )
 READ = Advice(direction="Read the error first, then the line above it: what has each name in it at that moment?")
 
-Call = tuple[FrameType, int]
-"""A frame, and the number of the line that it is in."""
-
 
 def in_words(error: BaseException) -> str:
     """The kind and the words of an error: "TypeError: unsupported operand …"."""
@@ -285,48 +284,39 @@ def _trace_of(error: BaseException) -> str:
     """The learner's lines that led to an error, outermost first, and the advice that the error carries."""
     if errors.before_showing is not None:
         errors.before_showing(error)
+    own = [each for each in traceback.extract_tb(error.__traceback__) if not errors.is_ours(each.filename)]
     lines = []
-    for entry in errors.learners_frames(error.__traceback__)[-MOST_FRAMES:]:
-        code = entry.tb_frame.f_code
-        file = errors.shown_path(code.co_filename)
+    for each in own[-MOST_FRAMES:]:
+        file = errors.shown_path(each.filename)
         place = "" if file == "a cell of this notebook" else f"{file}, "
-        inside = "" if code.co_name == "<module>" else f" in {code.co_name}"
-        lines.append(f"{place}line {entry.tb_lineno}{inside}: {_line(entry.tb_frame, entry.tb_lineno)}")
+        inside = "" if each.name == "<module>" else f" in {each.name}"
+        lines.append(f"{place}line {each.lineno}{inside}: {each.line}")
     return "\n".join([*lines, *map(str, getattr(error, "__notes__", ()))])
-
-
-def _line(frame: FrameType, number: int) -> str:
-    [summary] = traceback.StackSummary.extract([(frame, number)])
-    return (summary.line or "").strip().partition("\n")[0]
 
 
 def never_returned(error: BaseException) -> str:
     """Which callback went on without end, and in which line it was stopped."""
-    calls = list(traceback.walk_tb(error.__traceback__))
+    calls = traceback.extract_tb(error.__traceback__)
     inside = _in_a_callback(calls) or _learners(calls)
     return _where(inside, "stopped") if inside else "something that was called has not returned, and was stopped"
 
 
 def unreturned(strands: list[Strand]) -> list[str]:
     """The callbacks that parked strands stand in, each as "on_request has not returned: it is in line 7 (`…`)"."""
-    stacks = [list(traceback.walk_stack(each.frame))[::-1] for each in strands if each.frame is not None]
+    stacks = [traceback.extract_stack(each.frame) for each in strands if each.frame is not None]
     return [_where(inside, "it is") for inside in map(_in_a_callback, stacks) if inside]
 
 
-def _where(calls: list[Call], words: str) -> str:
-    name = calls[0][0].f_code.co_name
-    frame, number = calls[-1]
-    callback = "the program" if name == "<module>" else name
-    return f"{callback} has not returned: {words} in line {number} (`{_line(frame, number)}`)"
+def _where(calls: Sequence[FrameSummary], words: str) -> str:
+    callback = "the program" if calls[0].name == "<module>" else calls[0].name
+    return f"{callback} has not returned: {words} in line {calls[-1].lineno} (`{calls[-1].line}`)"
 
 
-def _in_a_callback(calls: list[Call]) -> list[Call]:
+def _in_a_callback(calls: Sequence[FrameSummary]) -> list[FrameSummary]:
     """The learner's own calls within a callback that an executor runs, outermost first: the callback is the first."""
-    executors = ("rclpy._executor", "rclpy.executors")
-    names = [str(frame.f_globals.get("__name__", "")) for frame, _ in calls]
-    spinning = [index for index, name in enumerate(names) if name.startswith(executors)]
+    spinning = [index for index, each in enumerate(calls) if each.filename == executors.__file__]
     return _learners(calls[spinning[-1] :]) if spinning else []
 
 
-def _learners(calls: list[Call]) -> list[Call]:
-    return [call for call in calls if errors.is_learners(call[0].f_code.co_filename)]
+def _learners(calls: Sequence[FrameSummary]) -> list[FrameSummary]:
+    return [call for call in calls if errors.is_learners(call.filename)]
