@@ -143,7 +143,7 @@ def test_only_errors_are_printed(system: Lesson, capsys: pytest.CaptureFixture[s
 @pytest.mark.parametrize("name", ["statsu_monitor", "Navigator", "", None, 3, ["launch"]])
 def test_an_unknown_name_is_explained(system: Lesson, name: Any) -> None:
     said = {"statsu_monitor": 'Did you mean "status_monitor"', "Navigator": 'Did you mean "navigator"'}
-    with pytest.raises(ValueError, match=said.get(str(name), 'There are: |Did you mean "launch"')):
+    with pytest.raises(ValueError, match=said.get(str(name), "There are: ")):
         system.check(name)
 
 

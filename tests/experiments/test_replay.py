@@ -116,7 +116,8 @@ def test_the_notebook_keeps_its_own_folder_chance_and_streams(
 
 def test_its_stream_may_outlive_the_notebooks(tmp_path: Path) -> None:
     with (tmp_path / "shown").open("w") as shown, redirect_stdout(shown):
-        stream = _Tee(Surroundings(tmp_path), 0)
+        surroundings = Surroundings(tmp_path)
+        stream = _Tee(lambda: surroundings._shown[0], surroundings.tail)
         stream.write("a word")
     assert (tmp_path / "shown").read_text() == "a word"
     stream.close()  # as the garbage collector does it

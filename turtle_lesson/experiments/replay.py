@@ -176,13 +176,41 @@ class Replay:
         )
 
 
+def _set_progress(value: str | None) -> None:
+    views.progress_file.cache_clear()
+    if value is None:
+        os.environ.pop(PROGRESS, None)
+    else:
+        os.environ[PROGRESS] = value
+
+
+PARTS: tuple[tuple[Callable[[], Any], Callable[[Any], object]], ...] = (
+    (files.here, os.chdir),
+    (files.places, files.set_places),
+    (random.getstate, random.setstate),
+    (np.random.get_state, np.random.set_state),
+    (lambda: Notebook.is_learners, lambda value: setattr(Notebook, "is_learners", staticmethod(value))),
+    (lambda: os.environ.get(PROGRESS), _set_progress),
+)
+"""What a worker's process has one of: how it is told, and how it is set."""
+
+
+def _state() -> list[Any]:
+    return [get() for get, _ in PARTS]
+
+
+def _put(state: list[Any]) -> None:
+    for (_, put), value in zip(PARTS, state, strict=True):
+        put(value)
+
+
 class Surroundings:
     """What a worker's process has one of, for a function that runs in this one: folder, chance, and where it prints."""
 
     def __init__(self, folder: Path | None = None) -> None:
         """`folder` is the function's; None: the folder that is the current one already."""
         here, places = (folder, (None, False, None)) if folder else (files.here(), files.places())
-        self._state: tuple[Any, ...] = (here, places, None, None, errors.is_learners, "off")
+        self._state = [here, places, random.getstate(), np.random.get_state(), errors.is_learners, "off"]
         self.tail = Tail()
         self._shown = (sys.stdout, sys.stderr)
 
@@ -190,62 +218,32 @@ class Surroundings:
     def hold(self) -> Iterator[None]:
         """Within this block they are the function's; after it, those of the notebook again."""
         before, self._shown = _state(), (sys.stdout, sys.stderr)
-        _set(self._state)
+        _put(self._state)
         try:
             yield
         finally:
             self._state = _state()
-            _set(before)
+            _put(before)
 
     @contextmanager
     def printed(self) -> Iterator[None]:
-        """Within this block the end of what is printed is kept, and all of it shown."""
-        with redirect_stdout(_Tee(self, 0)), redirect_stderr(_Tee(self, 1)):
+        """Within this block the end of what is printed is kept, and all of it shown in the notebook's own streams."""
+        out, err = _Tee(lambda: self._shown[0], self.tail), _Tee(lambda: self._shown[1], self.tail)
+        with redirect_stdout(out), redirect_stderr(err):
             yield
-
-    def shown(self, which: int) -> Any:
-        """The notebook's own stream."""
-        return self._shown[which]
-
-
-def _state() -> tuple[Any, ...]:
-    return (
-        files.here(),
-        files.places(),
-        random.getstate(),
-        np.random.get_state(),
-        Notebook.is_learners,
-        os.environ.get(PROGRESS),
-    )
-
-
-def _set(state: tuple[Any, ...]) -> None:
-    folder, places, chance, numpys_chance, is_learners, progress = state
-    os.chdir(folder)
-    files.set_places(places)
-    if chance is not None:
-        random.setstate(chance)
-        np.random.set_state(numpys_chance)
-    Notebook.is_learners = staticmethod(is_learners)
-    views.progress_file.cache_clear()
-    if progress is None:
-        os.environ.pop(PROGRESS, None)
-    else:
-        os.environ[PROGRESS] = progress
 
 
 class _Tee(io.TextIOBase):
-    """A stream that shows what is printed in the notebook, and keeps the end of it."""
+    """A stream that shows what is printed in another one, and keeps the end of it."""
 
-    def __init__(self, surroundings: Surroundings, which: int) -> None:
-        self._surroundings, self._which = surroundings, which
+    def __init__(self, shown: Callable[[], Any], tail: Tail) -> None:
+        self._shown, self._tail = shown, tail
 
     def write(self, text: str) -> int:
-        self._surroundings.tail.write(text)
-        self._surroundings.shown(self._which).write(text)
+        self._tail.write(text)
+        self._shown().write(text)
         return len(text)
 
     def flush(self) -> None:
-        shown = self._surroundings.shown(self._which)
-        if not getattr(shown, "closed", False):  # as it may be when the garbage collector closes this one
-            shown.flush()
+        if not getattr(self._shown(), "closed", False):  # as it may be when the garbage collector closes this one
+            self._shown().flush()

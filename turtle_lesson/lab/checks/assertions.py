@@ -97,15 +97,16 @@ def get_parameter(probe: Probe, owner: str, name: str) -> Any:
     return parameter_value_to_python(values[0]) if values else None
 
 
-def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> str:
-    """Set a parameter; returns why the node refused, or "". It is put back when the probe is over."""
+def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> None:
+    """Set a parameter, which is put back when the probe is over. Raises CannotLook where there is none, or the node refuses."""
     before = get_parameter(probe, owner, name)
     if before is None:
         raise CannotLook(f"{owner} has not declared a parameter {name}")
     old, new = (Parameter(name, value=each).to_parameter_msg() for each in (before, value))
     results = _ask(probe, owner, "set", parameters=[new]).results
     if not (results and results[0].successful):
-        return (results[0].reason if results else "") or "it gave no reason"
+        reason = (results[0].reason if results else "") or "it gave no reason"
+        raise CannotLook(f"{owner} refused {name} = {value!r}: {reason}")
 
     def put_back() -> None:
         probe.ask_soon(*_service(owner, "set"), parameters=[old])
@@ -113,7 +114,6 @@ def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> str:
             probe.target.step(0.01)  # also where the time of the check is over
 
     probe.clean_up.callback(put_back)
-    return ""
 
 
 def _ask(probe: Probe, owner: str, what: str, **fields: Any) -> Any:
@@ -386,9 +386,7 @@ FLOOD = 100
 def rate_follows(probe: Probe, owner: str, parameter: str, value: int | float, topic: str, type_name: str) -> Seen:
     """A rate (Hz) that is really read from a parameter: set it, and the messages come at that rate."""
     probe.listen(topic, type_name)
-    reason = set_parameter(probe, owner, parameter, value)
-    if reason:
-        return Seen(False, f"it refused: {reason}", f"{value!r} should be allowed for {parameter}.")
+    set_parameter(probe, owner, parameter, value)
     probe.raise_error()
     if len(probe.hear(topic, type_name, 0.1)) > FLOOD:
         nanoseconds = Advice(

@@ -251,10 +251,7 @@ def turns_little(probe: Probe, way: Way, most: float) -> Seen:
 
 def turning(poses: list[Pose]) -> float:
     """The sum of all turns from pose to pose, to and fro, in rad."""
-    headings = [each.theta for each in poses]
-    if not all(map(math.isfinite, headings)):
-        raise CannotLook("the turtle's heading is not a number")
-    return math.fsum(abs(turned(b - a)) for a, b in itertools.pairwise(headings))
+    return math.fsum(abs(turned(after.theta - before.theta)) for before, after in itertools.pairwise(poses))
 
 
 @expectation("time_taken within 0.1 s of the moving time")
