@@ -21,9 +21,9 @@ class Terminal(io.StringIO):
 
 
 def use() -> None:
-    with bar(3) as told:
-        for failed in (False, True, False):
-            told(failed)
+    with bar(3) as shown:
+        for _ in range(3):
+            shown.update()
 
 
 @pytest.mark.parametrize(
@@ -58,7 +58,7 @@ def test_a_live_notebook_gets_a_bar_of_which_nothing_is_left_and_a_page_that_is_
 
     cell = (
         f"import sys; sys.path.insert(0, {str(ROOT)!r})\nfrom turtle_lesson.experiments.experiment import bar\n"
-        "with bar(3) as told:\n    told(False)\n    told(True)"
+        "with bar(3) as shown:\n    shown.update()\n    shown.set_postfix_str('1 failed', refresh=False)\n    shown.update()"
     )
     try:
         client.execute_interactive(cell, output_hook=hear, allow_stdin=False, timeout=300)

@@ -22,7 +22,7 @@ import pytest
 import teaching_copies as copies
 from forgeries import FORGERIES, FORKED, PACKAGE_BESIDE
 
-from turtle_lesson.lab.checks.registry import checks_of
+from turtle_lesson.lab.checks.registry import all_checks
 from turtle_lesson.teaching import runner
 from turtle_lesson.teaching.copies import Copy, environment, is_too_full
 from turtle_lesson.teaching.grade import CheckScore, Graded, as_csv, as_json, grade, in_words, judged, plain
@@ -94,7 +94,7 @@ def test_a_class_is_graded(run: Run) -> None:
     assert honest["typing_error"]["errors"][0].startswith("cell 2 raised SyntaxError")
     assert honest["endless_cell"]["errors"] == ["cell 2 took more than 3 s, and was stopped"]
     assert honest["curious"]["errors"] == [], "no variable of the teacher's shell is seen"
-    of_the_page = sum(each.points for each in checks_of(copies.PAGE))
+    of_the_page = sum(each.points for each in all_checks() if each.page == copies.PAGE)
     assert {each["points"] for each in honest.values() if each["page"]} == {of_the_page}
     missed = honest["slow"]["checks"][0]["rows"]
     assert any("every 1000.0 ms" in row["seen"] and row["mark"] == "✗" for row in missed)
@@ -196,7 +196,7 @@ def ran(path: Path, found: Iterable[dict[str, Any]], monkeypatch: pytest.MonkeyP
 def test_a_verdict_needs_every_row_of_its_check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     good = [
         {"mark": "✓", "expected": each.expected, "seen": "", "next": ""}
-        for each in checks_of(copies.PAGE)[0].expectations
+        for each in next(found for found in all_checks() if found.page == copies.PAGE).expectations
     ]
 
     def verdict(rows: list[dict[str, str]], replaced: list[str], **more: Any) -> str:

@@ -133,14 +133,18 @@ def carry_out(
 ) -> list[tuple[Run, Ending]]:
     """Carry out runs; those that were over when the user interrupted. `at_once`: so many, and no more once one has failed."""
     done: list[tuple[Run, Ending]] = []
+    failed = 0
     try:
-        with bar(len(runs)) as told:
+        with bar(len(runs)) as shown:
             step = at_once or len(runs) or 1
             for first in range(0, len(runs), step):
                 for run, ending in pool.carry_out(runs[first : first + step]):
                     done.append((run, ending))
-                    told(ending.outcome != OK)
-                if at_once and any(ending.outcome != OK for _, ending in done):
+                    failed += ending.outcome != OK
+                    if failed:
+                        shown.set_postfix_str(f"{failed} failed", refresh=False)
+                    shown.update()
+                if at_once and failed:
                     break
     except KeyboardInterrupt:
         print(
@@ -286,42 +290,27 @@ def check_limits(jobs: Any, **limits: Any) -> None:
 
 
 @contextmanager
-def bar(total: int) -> Iterator[Callable[[bool], object]]:
-    """Show how many of so many runs are over, in a live notebook or a terminal. Nothing of it is left.
-
-    What this gives is called with whether a run has failed, for each that is over.
-    """
+def bar(total: int) -> Iterator[Any]:
+    """A bar of tqdm's for so many runs, in a live notebook or a terminal, of which nothing is left; elsewhere none is shown."""
     ipython: Any = sys.modules.get("IPython")
     kernel = getattr(ipython and ipython.get_ipython(), "kernel", None)
-    watched = _is_live(kernel) if kernel is not None else sys.stderr.isatty()
-    if not watched or "CI" in os.environ:
-        yield lambda failed: None
-        return
-    tqdm: Any = import_module("tqdm.std" if kernel is None else "tqdm.notebook").tqdm
-    options = {"dynamic_ncols": True} if kernel is None else {"display": False}
+    watched = "CI" not in os.environ and (sys.stderr.isatty() if kernel is None else _is_live(kernel))
+    notebook = watched and kernel is not None
+    tqdm: Any = import_module("tqdm.notebook" if notebook else "tqdm.std").tqdm
     Bar = type("Bar", (tqdm,), {"monitor_interval": 0})  # no thread stays behind
-    shown = Bar(total=total, unit="run", leave=False, **options)
-    output: Any = None
-    if kernel is not None:  # the bar is an output that is replaced by an empty text in the end
+    options = {"display": False} if notebook else {"dynamic_ncols": True, "disable": not watched}
+    with closing(Bar(total=total, unit="run", leave=False, **options)) as shown:
+        if not notebook:
+            yield shown
+            return
         from IPython.display import display
 
-        output = display(shown.container, display_id=True)
-    failures = 0
-
-    def told(failed: bool) -> None:
-        nonlocal failures
-        failures += failed
-        if failures:
-            shown.set_postfix_str(f"{failures} failed", refresh=False)
-        shown.update()
-
-    try:
-        yield told
-    finally:
-        if output is not None:
+        output: Any = display(shown.container, display_id=True)
+        try:
+            yield shown
+        finally:
             shown.n = shown.total  # or a bar that is stopped would stay, in red
-        shown.close()
-        if output is not None:
+            shown.close()
             output.update({"text/plain": ""}, raw=True)
 
 

@@ -154,22 +154,16 @@ def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
     if returned is None:
         return {}
     name = name_of(function)
-    if not isinstance(returned, dict):
+    values = {key: plain(value) for key, value in returned.items()} if isinstance(returned, dict) else {}
+    wrong = [key for key, value in values.items() if not (isinstance(key, str) and isinstance(value, PLAIN))]
+    if wrong or not isinstance(returned, dict):
+        got = f"{wrong[0]!r}: {returned[wrong[0]]!r}" if wrong else repr(returned)
         raise TypeError(
-            f'{name} must return a dict of what was measured, such as {{"seconds": 4.2}}, or nothing, got {returned!r:.80}'
+            f"{name} must return a dict of numbers, texts, True, False or None by their names, such as "
+            f'{{"seconds": 4.2}}, or nothing, got {got:.80}'
         )
-    values = {}
-    for key, value in returned.items():
-        if not isinstance(key, str):
-            raise TypeError(f"{name} must name what it returns by texts, got {key!r:.80}")
-        if key in OWN:
-            raise TypeError(f"{name} returned {key!r}, a column that each table has already: give it another name")
-        if not isinstance(plain(value), PLAIN):
-            raise TypeError(
-                f"{name} must return numbers, texts, True, False or None, got {key!r}: {value!r:.80} "
-                f"({type(value).__name__}), which has no place in a table"
-            )
-        values[key] = plain(value)
+    if own := [key for key in values if key in OWN]:
+        raise TypeError(f"{name} returned {own[0]!r}, a column that each table has already: give it another name")
     return values
 
 

@@ -138,14 +138,6 @@ class RobotBackend:
 
 # -- the node: all its callbacks happen in one event loop, whichever thread it is spun in --------------------------------
 
-LISTS = [
-    name
-    for name in dir(Node)
-    if name.startswith("get_") and name.endswith(("_and_namespaces", "_and_types", "_by_topic", "_by_node"))
-]
-COUNTS = [name for name in dir(Node) if name.startswith("count_")]
-"""What a node can be asked of the graph."""
-
 
 class LabNode(Node):
     """The lab's hidden node, `/_lab`: it offers no parameters and writes no log.
@@ -233,10 +225,11 @@ class LabNode(Node):
     def destroy_node(self) -> None:
         """As every node's. A later query of the graph, such as that of an old widget that is shown again, finds no nodes."""
         super().destroy_node()
-        for name in LISTS:
-            setattr(self, name, lambda *arguments, **options: [])
-        for name in COUNTS:
-            setattr(self, name, lambda *arguments, **options: 0)
+        for name in dir(Node):
+            if name.startswith("count_"):
+                setattr(self, name, lambda *arguments, **options: 0)
+            if name.startswith("get_") and name.endswith(("_and_namespaces", "_and_types", "_by_topic", "_by_node")):
+                setattr(self, name, lambda *arguments, **options: [])
 
 
 class Unawaited(CallbackGroup):

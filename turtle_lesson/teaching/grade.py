@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from ..lab.checks.registry import all_checks, checks_of
+from ..lab.checks.registry import all_checks
 from ..lab.checks.results import GOOD
 from .copies import MEMORY, Copy
 from .pages import page_of
@@ -135,7 +135,7 @@ def _remarks(path: Path, page: str, replaced: list[str], changed: list[str]) -> 
 def _scored(page: str, asked: list[str], rows: dict[str, list[dict[str, str]]]) -> list[CheckScore]:
     """What was seen, held against the checks that there are."""
     known = {each.name: each for each in all_checks()}
-    wanted = {each.name: each for each in checks_of(page)} if page else {}
+    wanted = {name: each for name, each in known.items() if each.page == page}
     wanted |= {name: known[name] for name in asked if name in known}
     scores = []
     for check in wanted.values():

@@ -267,21 +267,13 @@ def judge_rate(heard: Sequence[Heard], hz: float, within: float, publishers: int
     seen = f"every {number(1000 * mean, decimals)} ms ({number(1 / mean, 1) if mean else 'infinite'} Hz)"
     if round(high - low, 4):
         seen += f", from {number(1000 * low, 1)} to {number(1000 * high, 1)} ms"
-    if wrong := _wrong_unit(mean, hz):
-        seen += f": {wrong}"
+    for factor in (1_000, 1_000_000, 1_000_000_000):
+        if 0.9 * mean < 1 / (hz * factor) < 1.1 * mean:
+            seen += f": {factor} times too often. Which unit does the period have, seconds or nanoseconds?"
     good = abs(low - 1 / hz) <= within + 1e-9 and abs(high - 1 / hz) <= within + 1e-9
     if publishers > 1:
         return Seen(False, f"{seen}, from {publishers} publishers", "Only one should publish here: stop the other.")
     return Seen(good, seen, _how_to_pace(low, high, mean, hz, high - low > within))
-
-
-def _wrong_unit(mean: float, hz: float) -> str:
-    """What a rate (messages come every `mean` s) that is wrong by thousands may come from; "" for any other rate."""
-    ratio = 1 / (mean * hz) if mean else math.inf
-    for factor in (1_000, 1_000_000, 1_000_000_000):
-        if 0.9 < ratio / factor < 1.1:
-            return f"{factor} times too often. Which unit does the period have, seconds or nanoseconds?"
-    return ""
 
 
 def _how_to_pace(low: float, high: float, mean: float, hz: float, uneven: bool) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import struct
 from collections.abc import Iterable
@@ -253,16 +254,14 @@ def _shows_the_circles(probe: Probe) -> Seen:
 
 def _distance(pose: Any, bearing: float, circles: Iterable[Circle]) -> float:
     """How far it is from a pose to the nearest circle in a direction, m."""
-    nearest = FAR
+    met = [FAR]
     for each in circles:
-        dx, dy, direction = each.x - pose.x, each.y - pose.y, pose.theta + bearing
-        ahead = dx * math.cos(direction) + dy * math.sin(direction)
-        squared = each.radius**2 - (dy * math.cos(direction) - dx * math.sin(direction)) ** 2
-        if math.hypot(dx, dy) <= each.radius:
+        ahead = complex(each.x - pose.x, each.y - pose.y) * cmath.rect(1.0, -(pose.theta + bearing))
+        if abs(ahead) <= each.radius:
             return 0.0
-        if ahead > 0 and squared > 0:
-            nearest = min(nearest, ahead - math.sqrt(squared))
-    return nearest
+        if ahead.real > 0 and abs(ahead.imag) < each.radius:
+            met.append(ahead.real - math.sqrt(each.radius**2 - ahead.imag**2))
+    return min(met)
 
 
 @expectation("goes on with three obstacles in sight")

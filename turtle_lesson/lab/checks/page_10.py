@@ -69,14 +69,15 @@ TICK = 0.2
 @check(PAGE, points=4, limit=30, learnt="A watchdog remembers when it last heard something, so it notices silence.")
 def watchdog() -> list[Expectation]:
     """A watchdog that notices when the status stops coming."""
+    recent = "What does is_alive compare, and in which unit? A status that came 0.4 s ago is recent enough."
     return [
         subscribes(STATUS, STATUS_TYPE, by="/watchdog"),
         publishes(ALIVE, VERDICT_TYPE, by="/watchdog"),
         Expectation("False before the first status", _before_the_first),
-        Expectation("True while a status comes every 0.4 s", _while_it_comes),
+        _says_true("True while a status comes every 0.4 s", hinted(recent, 2)),
         _in_silence(f"True until {LIMIT:g} s after the last one", True),
         _in_silence(f"False from {LIMIT:g} s after the last one on", False),
-        Expectation("True when it comes again", _when_it_comes_again),
+        _says_true("True when it comes again", "Does every status that comes bring the time up to date?", True),
         no_errors(),
     ]
 
@@ -95,13 +96,17 @@ def _before_the_first(probe: Probe) -> Seen:
     return Seen(said is False, f"a new one says {said!r}", advice)
 
 
-def _while_it_comes(probe: Probe) -> Seen:
+@expectation("{expected}")
+def _says_true(probe: Probe, expected: str, advice: str | Advice, after_silence: bool = False) -> Seen:
+    """While a status comes the robot is alive: each time, or in the end where it did not come before."""
+    if after_silence:
+        _hush(probe)
     heard = _speak(probe)
     if not heard:
         return _nothing_came(probe)
-    step = "What does is_alive compare, and in which unit? A status that came 0.4 s ago is recent enough."
-    wrong = [each.message.data for each in heard if each.message.data is not True]
-    return Seen(not wrong, f"it says {wrong[0] if wrong else True}", hinted(step, 2))
+    said = [each.message.data for each in heard]
+    wrong = [each for each in said[-1 if after_silence else 0 :] if each is not True]
+    return Seen(not wrong, f"it says {wrong[0] if wrong else True}", advice)
 
 
 @expectation("{expected}")
@@ -113,15 +118,6 @@ def _in_silence(probe: Probe, expected: str, alive: bool) -> Seen:
     age, said = (wrong or verdicts)[-1 if alive else 0]
     step = "How long ago did the last status come, by the clock, each time that the timer ticks?"
     return Seen(not wrong, f"{number(age)} s after it: {said}", hinted(step, 2))
-
-
-def _when_it_comes_again(probe: Probe) -> Seen:
-    _hush(probe)
-    heard = _speak(probe)
-    if not heard:
-        return _nothing_came(probe)
-    step = "Does every status that comes bring the time up to date?"
-    return Seen(heard[-1].message.data is True, f"it says {heard[-1].message.data}", step)
 
 
 def _nothing_came(probe: Probe) -> Seen:

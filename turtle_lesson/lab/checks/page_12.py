@@ -232,21 +232,17 @@ def robust() -> list[Expectation]:
 def _is_own(probe: Probe) -> Seen:
     program = running(probe, "navigator")[0]
     mine = str(workspace().folder / "install")
-    return Seen(program.startswith(mine), "it is" if program.startswith(mine) else "it came from elsewhere",
-                'Run the cell with start(seed=0, package="mine") again.')  # fmt: skip
+    seen = "it is" if program.startswith(mine) else "it came from elsewhere"
+    return Seen(seen == "it is", seen, 'Run the cell with start(seed=0, package="mine") again.')
 
 
 def drawn_goals(amount: int, latency: float) -> list[Way]:
     """Goals that nobody has seen: they are drawn from the text of the learner's navigator, so a new one has new goals."""
     file = workspace().nodes / "navigator_node.py"
     text = file.read_text(encoding="utf-8") if file.is_file() else ""
-    chance = Random(f"{latency} {text}")
+    uniform = Random(f"{latency} {text}").uniform
     return [
-        Way(
-            f"goal {made} at {latency:g} s",
-            MIDDLE,
-            (chance.uniform(1, 10), chance.uniform(1, 10), chance.uniform(-3, 3)),
-        )
+        Way(f"goal {made} at {latency:g} s", MIDDLE, (uniform(1, 10), uniform(1, 10), uniform(-3, 3)))
         for made in range(amount)
     ]
 

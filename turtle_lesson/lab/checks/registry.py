@@ -125,11 +125,6 @@ def all_checks() -> list[Check]:
     return sorted(_checks.values(), key=lambda each: PAGES.index(each.page))
 
 
-def checks_of(page: str) -> list[Check]:
-    """The checks of a page."""
-    return [each for each in all_checks() if each.page == page]
-
-
 def find(name: object) -> Check:
     """The check of a name. Raises ValueError, which says which one may be meant."""
     known = {each.name: each for each in all_checks()}
