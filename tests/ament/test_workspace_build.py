@@ -99,7 +99,7 @@ def test_the_tree(package: Path, world: World, tmp_path: Path) -> None:
     for path in (
         "build/COLCON_IGNORE", "build/.built_by", "build/robot_controller/colcon_build.rc", "install/COLCON_IGNORE",
         "install/.colcon_install_layout", "install/setup.bash", "install/local_setup.bash", "log/COLCON_IGNORE",
-        "log/latest_build/logger_all.log",
+        "log/latest_build/robot_controller/stdout_stderr.log",
         f"{install}/lib/robot_controller/navigator",
         f"{install}/local/lib/python3.10/dist-packages/robot_controller/msg/_turtle_status.py",
         f"{install}/local/lib/python3.10/dist-packages/robot_controller/srv/__init__.py",

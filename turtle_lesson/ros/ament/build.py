@@ -76,12 +76,7 @@ class _Job:
         return self.began + self.outcome.seconds
 
 
-def build(world: World, plan: Plan, *, stdout: TextIO, stderr: TextIO) -> int:
-    """Build the plan's packages; return colcon's exit code."""
-    return _Builder(world, plan, stdout, stderr).run()
-
-
-class _Builder:
+class Builder:
     """One run of `colcon build`."""
 
     def __init__(self, world: World, plan: Plan, out: TextIO, err: TextIO) -> None:
@@ -91,12 +86,13 @@ class _Builder:
         self.handlers = {**DEFAULTS, **plan.handlers}
         self.now = 0.0
         self.code = 0
-        self.log: dict[str, Outcome] = {}
+        self.outcomes: dict[str, Outcome] = {}
         self.waiting = [found for found in in_order(plan.packages) if found.buildable]
         self.running: list[_Job] = []
         self.ended: dict[str, list[str]] = {"finished": [], "failed": [], "aborted": [], "had stderr output": []}
 
     def run(self) -> int:
+        """Build the plan's packages; return colcon's exit code."""
         layout = "merged" if self.plan.merged else "isolated"
         prepare(self.plan.install, self.plan.build, self.plan.log, layout)
         queued = [found.name for found in self.waiting]
@@ -117,7 +113,6 @@ class _Builder:
         self._pass(_END)
         self._summarise(len(queued))
         self._warn_of_cpp()
-        self._write_log()
         return self.code
 
     def _pass(self, seconds: float) -> None:
@@ -189,7 +184,7 @@ class _Builder:
                 outcome.stderr += f"error: {name} cannot be installed: {error.strerror or error}: {error.filename}\n"
             else:
                 resource(self.world, self.plan.install, name)
-        self.log[name] = outcome
+        self.outcomes[name] = outcome
         self.code = self.code or outcome.code
         if outcome.colcon_error:
             task = "core.task.python" if job.found.is_python else "cmake.task.cmake"
@@ -208,6 +203,10 @@ class _Builder:
 
     def _show_output(self, name: str, outcome: Outcome) -> None:
         stdout, stderr = outcome.stdout, outcome.stderr
+        log = self.plan.log / "latest_build"
+        if log.is_file():  # an earlier version wrote the folder's name into it, on a computer without links
+            log.unlink()
+        files.save(log / name / "stdout_stderr.log", "".join(f"{line}\n" for line in stdout) + stderr)
         for line in stdout:
             self._say("console_direct", line)
         if stderr:
@@ -232,7 +231,7 @@ class _Builder:
     def _warn_of_cpp(self) -> None:
         """Name in one warning all that was left out because it is C++, and the packages that depend on it."""
         lines = []
-        for name, outcome in sorted(self.log.items()):
+        for name, outcome in sorted(self.outcomes.items()):
             if outcome.left_out or outcome.lacking:
                 needing = [found.name for found in self.plan.workspace if name in found.dependencies]
                 parts = [
@@ -244,21 +243,6 @@ class _Builder:
         if lines:
             head = "Warning: C++ is not compiled here. All else of these packages was built"
             print(f"{head} (interfaces, launch files, parameters, Python programs):", *lines, sep="\n", file=self.err)
-
-    def _write_log(self) -> None:
-        stamp = time.strftime("%Y-%m-%d_%H-%M-%S", time.gmtime(1_800_000_000 + self.world.now // NANOSECONDS))
-        folder = self.plan.log / f"build_{stamp}"
-        for name, outcome in self.log.items():
-            stdout = "".join(f"{line}\n" for line in outcome.stdout)
-            files.save(folder / name / "stdout_stderr.log", stdout + outcome.stderr)
-        summary = "".join(f"{name}: exit code {outcome.code}\n" for name, outcome in self.log.items())
-        files.save(folder / "logger_all.log", summary)
-        for link in (self.plan.log / "latest", self.plan.log / "latest_build"):
-            try:
-                link.unlink(missing_ok=True)
-                link.symlink_to(folder.name)
-            except OSError:  # a computer without links
-                link.write_text(folder.name, encoding="utf-8")
 
 
 def _listed(word: str, names: list[str]) -> str:

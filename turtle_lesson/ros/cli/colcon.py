@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from ..ament.build import DEFAULTS, Plan, build
+from ..ament.build import DEFAULTS, Builder, Plan
 from ..ament.manifest import Found, build_type_hint, discover, in_order, needed_by
 from ..ament.package import ColconError
 from ..idl.names import did_you_mean
@@ -170,7 +170,7 @@ class _Command:
                 raise ColconError(f"{folder.name} is the folder of the sources; choose another folder")
         if self.cwd.name == "src" and workspace and not (self.cwd / "src").is_dir():
             self.err.write("Hint: install/ is made here, in src/; packages are usually built in the folder above.\n")
-        return build(self.world, plan, stdout=self.out, stderr=self.err)
+        return Builder(self.world, plan, self.out, self.err).run()
 
 
 _SELECTION = (
