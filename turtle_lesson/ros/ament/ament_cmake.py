@@ -40,13 +40,9 @@ def build_ament_cmake(found: Found, environment: Environment) -> Outcome:
         outcome = build.run()
     except BuildFailure as failure:
         text, code = "".join(build.warnings) + failure.text, failure.code
-        if (
-            again
-            and code == 1
-            and text.startswith(("CMake Error at CMakeLists", "CMake Error at /opt", "Error parsing"))
-        ):
-            text += "gmake: *** [Makefile:786: cmake_check_build_system] Error 1\n"
-            code = 2
+        configuring = text.startswith(("CMake Error at CMakeLists", "CMake Error at /opt", "Error parsing"))
+        if again and code == 1 and configuring:
+            text, code = f"{text}gmake: *** [Makefile:786: cmake_check_build_system] Error 1\n", 2
         return Outcome(code, with_hint(text, [failure.hint, *build.hints]), seconds=failure.seconds)
     outcome.seconds = (0.7 if again else 1.2) + 2.0 * build.changed_interfaces()
     return outcome
@@ -85,17 +81,11 @@ class _Build:
             )
         if self.environment.compiles:
             types = self.environment.types  # of the package's own, only those that CMakeLists.txt names
-            if self.found.name in types.packages():
-                types.remove(self.found.name)
             types.add(self.found.name, self.found.path, tuple(self.interfaces))
             for check in self.checks:
                 check.resolve(types)
-        items = [
-            item
-            for entry in self.entries
-            if runs_python(entry)
-            for item in install_items(self.found, entry, self.hints)
-        ]
+        wanted = [entry for entry in self.entries if runs_python(entry)]
+        items = [item for entry in wanted for item in install_items(self.found, entry, self.hints)]
         items += [*self.python, *interface_items(self.found, self.interfaces)] if self.checks else self.python
         check_targets(items, self.found.name)
         self.hints += self._advice(items)
@@ -104,7 +94,7 @@ class _Build:
             stderr=with_hint("".join(self.warnings), self.hints),
             stdout=[*stdout, "-- Configuring done", "-- Generating done"],
             items=items,
-            left_out=[*self.cpp, *(entry.name for entry in self.entries if not runs_python(entry))],
+            left_out=[*self.cpp, *(entry.name for entry in self.entries if entry not in wanted)],
             lacking=self.lacking,
         )
 
@@ -305,16 +295,11 @@ class _Build:
                 "rosidl_generate_interfaces(${PROJECT_NAME} …)."
             )
         setup = self.found.path / "setup.py"
-        before, named, _ = (
-            setup.read_text("utf-8", "replace").partition("entry_points") if setup.is_file() else ("", "", "")
-        )
+        before, named, _ = (setup.read_text("utf-8", "replace") if setup.is_file() else "").partition("entry_points")
         if named:
-            line, place = before.count("\n") + 1, f"lib/{self.found.name}"
-            hint = ""
-            if all(entry.kind != "PROGRAMS" or entry.destination != place for entry in self.entries):
-                hint = f" Install each program in CMakeLists.txt: install(PROGRAMS {self.found.name}/<file>.py DESTINATION "
-                hint += "lib/${PROJECT_NAME} RENAME <name>)."
+            line = before.count("\n") + 1
             yield (
-                f"setup.py, line {line}, lists entry_points, but package.xml says ament_cmake: CMake does not read "
-                f"setup.py, and nothing will be installed from them.{hint}"
+                f"setup.py, line {line}, lists entry_points, but package.xml says ament_cmake: CMake does not read setup.py, "
+                "and nothing will be installed from them. In CMakeLists.txt a program is installed by "
+                f"install(PROGRAMS {self.found.name}/<file>.py DESTINATION lib/${{PROJECT_NAME}} RENAME <name>)."
             )

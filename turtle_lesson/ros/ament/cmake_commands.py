@@ -175,9 +175,7 @@ class InterfaceCheck:
                 )
                 like = sorted(folder.rglob(f"*{Path(name).suffix or '.msg'}"))
                 there = [path.relative_to(folder).as_posix() for path in like]
-                hint = did_you_mean(name, there) or (
-                    f"There are: {', '.join(there)}." if there else "Write that file first."
-                )
+                hint = did_you_mean(name, there) or f"There are: {', '.join(there) or 'none'}."
                 if name.endswith(","):
                     hint = "CMake separates names by spaces or new lines: leave the commas out."
                 raise self._refused(93, text, hint)

@@ -17,7 +17,7 @@ from ..idl.registry import Registry
 from ..runtime import files
 from ..sim.errors import shown_path
 from .manifest import Found, by_rounds
-from .package import BuildFailure, ColconError, Package
+from .package import BuildFailure, ColconError, Package, PythonProgram
 
 PYTHON = "python3.10"
 """The Python of ROS 2 Humble, which is in the names of installed folders, whatever Python runs here."""
@@ -177,10 +177,9 @@ def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
 
 def write_setup_files(install: Path) -> None:
     """`setup.bash`, `local_setup.bash` and the others: names for `source`, which reads the install folder itself."""
+    text = "# Made by colcon build of Turtle Lesson; `source` in a page reads this folder itself.\n"
     for name in SETUP_FILES:
-        files.save(
-            install / name, "# Made by colcon build of Turtle Lesson; `source` in a page reads this folder itself.\n"
-        )
+        files.save(install / name, text)
 
 
 # -- read back -----------------------------------------------------------------------------------------------------------
@@ -220,19 +219,20 @@ def read_installed(install: Path, name: str) -> Package:
     lines = listed.read_text(encoding="utf-8").splitlines() if listed.is_file() else []
     note = install.parent / "build" / name / "source_folder.txt"
     source = Path(note.read_text(encoding="utf-8").strip()) if note.is_file() else None
+    programs = [path for path in lying if path.is_file() and (os.name == "nt" or os.access(path, os.X_OK))]
+    modules = _python_folders(prefix)
     return Package(
         name=name,
         share=prefix / "share" / name,
-        executables={
-            path.name: path for path in lying if path.is_file() and (os.name == "nt" or os.access(path, os.X_OK))
-        },
+        executables={path.name: PythonProgram(path, tuple(modules)) if modules else path for path in programs},
         interfaces=[line for line in lines if "_Re" not in line.rpartition("/")[2] and not line.endswith(".idl")],
         source=source if source and source.is_dir() else None,
         prefix=prefix,
+        modules=modules,
     )
 
 
-def python_folders(prefix: Path) -> list[Path]:
+def _python_folders(prefix: Path) -> list[Path]:
     """The folders with Python packages of the learner's own, which are put on the import path."""
     index = prefix / _INDEX / "rosidl_interfaces"
     made = {path.name for path in index.iterdir()} if index.is_dir() else set()

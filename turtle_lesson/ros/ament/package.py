@@ -31,9 +31,9 @@ class Package:
         executables: what `ros2 run` and `Node(executable=…)` find, by name.
         interfaces: its definitions relative to `share`, such as `msg/TurtleStatus.msg`.
         source: the folder in which it was written, or None.
-        prefix: the folder that it is installed in; None for one that is used as it lies there. For such a one:
-        installed: what its share folder would contain after a build, by path; None for everything under `share`.
-        modules: the folders in which the modules of an ament_python package lie.
+        prefix: the folder that it is installed in; None for one that is used as it lies there.
+        installed: what the share folder of such a one would contain after a build, by path; None for all under `share`.
+        modules: the folders in which its Python modules lie.
     """
 
     name: str
@@ -121,18 +121,11 @@ class PackageError(ValueError):
     """A package cannot be read as it lies there, for a reason, in a line (from 1) of a file; `hint` says what to try."""
 
     def __init__(self, reason: str, file: Path | None = None, line: int | None = None, hint: str = "") -> None:
-        super().__init__(reason, file, line, hint)
-        self.reason = reason
-        self.file = file
-        self.line = line
-        self.hint = hint
-
-    def __str__(self) -> str:
-        where = shown_path(str(self.file)) if self.file else ""
-        if self.line is not None:
-            where += f", line {self.line}"
-        text = f"{where}: {self.reason}" if where else self.reason
-        return f"{text}. {self.hint}" if self.hint else text
+        where = shown_path(str(file)) if file else ""
+        if line is not None:
+            where += f", line {line}"
+        text = f"{where}: {reason}" if where else reason
+        super().__init__(f"{text}. {hint}" if hint else text)
 
 
 class ColconError(Exception):

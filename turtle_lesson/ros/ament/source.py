@@ -10,7 +10,7 @@ import importlib
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -27,7 +27,6 @@ from .install_tree import (
     Environment,
     Outcome,
     installed_names,
-    python_folders,
     read_installed,
 )
 from .manifest import Found, build_type_hint, discover, read_found
@@ -74,25 +73,7 @@ class _Overlay:
 
     install: Path
     package: Package
-    paths: list[Path]
     hidden: tuple[Path, tuple[str, ...] | None] | None
-
-
-def overlay(world: World, install: Path) -> list[str]:
-    """Make the packages of an install folder findable; return their names, each after those it needs."""
-    names = installed_names(install)
-    for name in names:
-        _add(world, install, name)
-    importlib.invalidate_caches()
-    return names
-
-
-def resource(world: World, install: Path, name: str) -> None:
-    """Read one package anew, if it is sourced: its files have changed."""
-    install = install.resolve()
-    if any((each.install, each.package.name) == (install, name) for each in overlays(world)):
-        _add(world, install, name)
-        importlib.invalidate_caches()
 
 
 class _Overlays(list[_Overlay]):
@@ -104,52 +85,68 @@ def overlays(world: World) -> list[_Overlay]:
     return world.notebook.state(_Overlays)
 
 
+def overlay(world: World, install: Path) -> None:
+    """Make the packages of an install folder findable, each after those it needs."""
+    for name in installed_names(install):
+        _add(world, install, name)
+
+
+def resource(world: World, install: Path, name: str) -> None:
+    """Read one package anew, if it is sourced: its files have changed."""
+    if _sourced(world, install.resolve(), name):
+        _add(world, install.resolve(), name)
+
+
+def _sourced(world: World, install: Path, name: str) -> list[_Overlay]:
+    return [each for each in overlays(world) if (each.install, each.package.name) == (install, name)]
+
+
 def _add(world: World, install: Path, name: str) -> None:
     if not overlays(world):
         world.notebook.at_exit.append(lambda: remove_all(world))
-    _remove(world, install, name)
+    for each in _sourced(world, install, name):
+        _remove(world, each)
     package = read_installed(install, name)
-    prefix = package.prefix or install
-    paths = python_folders(prefix)
-    if paths:
-        package.executables = {
-            name: PythonProgram(target, tuple(paths)) if isinstance(target, Path) else target
-            for name, target in package.executables.items()
-        }
     hidden = None  # the interfaces of this name that were added before; a built-in package shows again by itself
-    if package.interfaces and registry.was_added(package.name):
-        before = registry.package(package.name)
+    if package.interfaces and registry.was_added(name):
+        before = registry.package(name)
         hidden = before.directory, before.files
-    overlays(world).append(_Overlay(install, package, paths, hidden))
+    overlays(world).append(_Overlay(install, package, hidden))
+    _show(world, package)
+
+
+def _show(world: World, package: Package) -> None:
     world.packages.add(package)
     if package.interfaces:
         registry.add(package.name, package.share, package.interfaces)
-    forget_below([prefix])
-    for path in paths:
-        if str(path) not in sys.path:
-            sys.path.append(str(path))
+    forget_below([package.prefix] if package.prefix else package.modules)
+    sys.path += [str(path) for path in package.modules if str(path) not in sys.path]
+    importlib.invalidate_caches()
 
 
-def _remove(world: World, install: Path, name: str) -> None:
-    for each in [each for each in overlays(world) if (each.install, each.package.name) == (install, name)]:
-        overlays(world).remove(each)
-        world.packages.remove(each.package)
-        name, is_known = each.package.name, each.package.name in registry.packages()
-        if each.package.interfaces and is_known and registry.package(name).directory == each.package.share:
-            registry.remove(name)  # unless somebody else has put another in its place
-            if each.hidden is not None:
-                registry.add(name, *each.hidden)
-        for path in each.paths:
-            shared = any(path in other.paths for other in overlays(world))  # in a merged install folder
-            if str(path) in sys.path and not shared:
-                sys.path.remove(str(path))
-        forget_below([each.package.prefix or each.install])
+def _remove(world: World, each: _Overlay) -> None:
+    package = each.package
+    overlays(world).remove(each)
+    world.packages.remove(package)
+    is_known = bool(package.interfaces) and package.name in registry.packages()
+    if is_known and registry.package(package.name).directory == package.share:
+        registry.remove(package.name)  # unless somebody else has put another in its place
+        if each.hidden is not None:
+            registry.add(package.name, *each.hidden)
+    shared = {path for other in overlays(world) for path in other.package.modules}  # in a merged install folder
+    _forget(package, {*package.modules} - shared)
+
+
+def _forget(package: Package, folders: Collection[Path]) -> None:
+    """Take folders of a package's modules from the path, and have its modules be imported anew."""
+    sys.path[:] = [path for path in sys.path if path not in set(map(str, folders))]
+    forget_below([package.prefix] if package.prefix else package.modules)
 
 
 def remove_all(world: World) -> None:
     """Undo every `source` of a world."""
     for each in reversed(overlays(world)[:]):
-        _remove(world, each.install, each.package.name)
+        _remove(world, each)
 
 
 # -- a package that is used as it lies there ---------------------------------------------------------------------------
@@ -222,21 +219,9 @@ def checked_build(found: Found, environment: Environment) -> Outcome:
 def use_source(world: World, folder: Path) -> None:
     """Make a package's executables, modules, launch files and interfaces findable, as building and sourcing it would."""
     package = read_source_package(folder)
-    world.packages.add(package)
-    added = [str(path) for path in package.modules if str(path) not in sys.path]
-    sys.path += added
-    forget_below(package.modules)
-    importlib.invalidate_caches()
-
-    def undo() -> None:
-        sys.path[:] = [path for path in sys.path if path not in added]
-        forget_below(package.modules)
-
-    world.notebook.at_exit.append(undo)
-    if package.interfaces:
-        if package.name in registry.packages():
-            registry.remove(package.name)
-        registry.add(package.name, folder, package.interfaces)
+    added = [path for path in package.modules if str(path) not in sys.path]
+    _show(world, package)
+    world.notebook.at_exit.append(lambda: _forget(package, added))
 
 
 # -- a package as it goes to a robot: checked with every rule of the build, and with a README ----------------------------
@@ -318,19 +303,15 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
 
 
 def _find(world: World, package: str | Path) -> Found:
-    folder = Path(package)
-    if (folder / "package.xml").is_file():
-        return read_found(folder.resolve(), folder.resolve().parent)
-    name = str(package)
-    here = {each.name: each for each in discover(Path.cwd() / "src", Path.cwd())}
-    if name in here:
-        return here[name]
-    known = {each.name: each.source for each in world.packages if each.source is not None}
-    if name not in known:
-        names = {*here, *known}
-        hint = did_you_mean(name, names) or f"There are: {', '.join(sorted(names))}."
-        raise PackageError(f"the source of the package {name!r} is not known", hint=hint)
-    return read_found(known[name], known[name].parent)
+    name, folder = str(package), Path(package).resolve()
+    if not (folder / "package.xml").is_file():
+        known = {each.name: each.source for each in world.packages if each.source is not None}
+        known |= {each.name: each.path for each in discover(Path.cwd() / "src", Path.cwd())}
+        if name not in known:
+            hint = did_you_mean(name, known) or f"There are: {', '.join(sorted(known))}."
+            raise PackageError(f"the source of the package {name!r} is not known", hint=hint)
+        folder = known[name]
+    return read_found(folder, folder.parent)
 
 
 def _imports(folder: Path) -> Iterator[tuple[Path, int, str]]:

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..ament.index import current_packages
-from ..ament.install_tree import python_folders
 from ..ament.package import PythonProgram
 from .jobs import lasting, with_values
 
@@ -287,8 +286,7 @@ def _module(name: str) -> Path | None:
     """The file of a module beside which the terminal stands, or of a package that was sourced."""
     if not all(part.isidentifier() for part in name.split(".")):
         return None
-    prefixes = [package.prefix for package in current_packages() if package.prefix is not None]
-    folders = [Path.cwd(), *(folder for prefix in prefixes for folder in python_folders(prefix))]
+    folders = [Path.cwd(), *(folder for package in current_packages() for folder in package.modules)]
     inner = Path(*name.split("."))
     places = (folder / file for folder in folders for file in (inner.with_suffix(".py"), inner / "__main__.py"))
     return next((place for place in places if place.is_file()), None)
