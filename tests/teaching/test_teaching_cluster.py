@@ -106,7 +106,7 @@ def test_a_cluster_grades_as_this_machine_does(place: Path, address: str) -> Non
     assert rest == json.loads(near.stdout)["copies"]
     assert (anna["learner"], anna["earned"], anna["problem"]) == ("Anna", 3, "")
     assert anna["errors"] == ["cell 5 raised ZeroDivisionError: division by zero"]
-    assert [each["problem"][:17] for each in broken] == ["is not a notebook", "does not exist"]
+    assert [each["problem"][:17] for each in broken] == ["is not a notebook", "cannot be read: N"]
     assert (dora["learner"], dora["earned"], dora["problem"]) == ("Dora", 0, cluster.DIED)
     assert far.returncode == near.returncode == 1
     for _ in range(100):  # what Dora's copy has left in the care of nobody

@@ -98,7 +98,7 @@ def test_what_cannot_be_read_says_why(tmp_path: Path, monkeypatch: pytest.Monkey
     with pytest.raises(PageError, match=r"no\.zip is not a zip file"):
         find([tmp_path / "no.zip"])
     (gone,) = find([tmp_path / "gone.zip"])
-    with pytest.raises(PageError, match="does not exist"):
+    with pytest.raises(PageError, match="cannot be read: No such file"):
         gone.content()
     archive = zipped(tmp_path / "all.zip", PAGE)
     (copy,) = find([archive])

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 
 PACKAGE = "robot_controller"
-FILLED_IN, YOURS = "filled in", "yours"
 _INSTALL = re.compile(r"^install\(.*?\)\n", re.MULTILINE | re.DOTALL)
 
 
@@ -95,14 +94,11 @@ class Workspace:
         have = [path.relative_to(self.package).as_posix() for path in sorted(_sources(self.package))]
         if not have:
             return f"There is no package in {self._shown(self.package)} yet."
-        wide = max(map(len, have))
-        memory = self._memory()
-        rows = [f"  {path.ljust(wide)}  {self._origin(path, memory)}" for path in have]
-        return "\n".join([f"Your package {self._shown(self.package)}:", *rows])
-
-    def _origin(self, path: str, memory: dict[str, Any]) -> str:
-        written, page = memory["files"].get(path, ["", "?"])
-        return FILLED_IN if page == "" and written == _hash(_text(self.package / path) or "") else YOURS
+        written, rows = self._memory()["files"], [f"Your package {self._shown(self.package)}:"]
+        for path in have:
+            filled_in = written.get(path) == [_hash(_text(self.package / path) or ""), ""]
+            rows.append(f"  {path.ljust(max(map(len, have)))}  {'filled in' if filled_in else 'yours'}")
+        return "\n".join(rows)
 
     @property
     def is_built(self) -> bool:

@@ -28,15 +28,6 @@ from .pages import PageError
 MOODLE = re.compile(r"([^_]+)(?:_(\d+))?_assignsubmission_file(?:_.*)?")
 """A folder that Moodle makes for a learner or a group (in some releases with a `_` at its end), or how it names a file."""
 
-SUBMITTED = "submitted"
-"""nbgrader's folder of what it has collected."""
-
-OF_A_COURSE = ("nbgrader_config.py", "gradebook.db")
-"""What shows that a folder above the one that is named is nbgrader's folder of a course."""
-
-CLONED = "-submissions"
-"""How the folder's name ends that `gh classroom clone student-repos` makes for an assignment."""
-
 
 @dataclass(frozen=True)
 class Copy:
@@ -58,8 +49,6 @@ class Copy:
             else:
                 with self.path.open("rb") as file:
                     found = file.read(LARGEST + 1)
-        except FileNotFoundError:
-            raise PageError("does not exist") from None
         except OSError as error:
             raise PageError(f"cannot be read: {error.strerror or error}") from None
         except (zipfile.BadZipFile, RuntimeError, NotImplementedError, zlib.error, EOFError) as error:
@@ -121,12 +110,12 @@ def _owner(path: Path, root: Path) -> tuple[Path, str, str]:
     for index, part in enumerate(parts):
         if found := MOODLE.fullmatch(part):
             return Path(*parts[:index]), found[1].strip(), found[2] or ""
-    for index, part in enumerate(parts[:-3]):
-        is_course = any(Path(*parts[:index], name).exists() for name in OF_A_COURSE)
-        if part == SUBMITTED and (index >= len(root.parts) - 1 or is_course):
+    for index, part in enumerate(parts[:-3]):  # nbgrader collects in `submitted`, also where a folder above it is named
+        is_course = any(Path(*parts[:index], name).exists() for name in ("nbgrader_config.py", "gradebook.db"))
+        if part == "submitted" and (index >= len(root.parts) - 1 or is_course):
             return Path(*parts[: index + 1]), parts[index + 1], ""
-    for index, part in enumerate(parts[:-2]):
-        assignment = part.removesuffix(CLONED)
+    for index, part in enumerate(parts[:-2]):  # `gh classroom clone student-repos` makes such folders
+        assignment = part.removesuffix("-submissions")
         if assignment != part and parts[index + 1].startswith(f"{assignment}-"):
             return Path(*parts[: index + 1]), parts[index + 1].removeprefix(f"{assignment}-"), ""
     return path, "", ""
@@ -147,12 +136,6 @@ may have to share the machine with many others."""
 
 LARGEST = 50_000_000
 """Bytes of a notebook, and of an answer, that are read at most."""
-
-PROCESSES = 300
-"""How many processes and threads a copy may add to those of the user, where the system limits that."""
-
-LARGEST_FILE = 200_000_000
-"""Bytes of one file, where the system limits that."""
 
 PASSED_ON = (
     *("PATH", "LANG", "LANGUAGE", "TZ", "PYTHONPATH", "LD_LIBRARY_PATH", "ROS_DISTRO"),
@@ -180,10 +163,10 @@ def limit(memory: float) -> None:
         return
     most = {
         "RLIMIT_AS": round(memory * 1e9),
-        "RLIMIT_FSIZE": LARGEST_FILE,
+        "RLIMIT_FSIZE": 200_000_000,  # bytes of one file
         "RLIMIT_CORE": 0,
         "RLIMIT_NOFILE": 2048,
-        "RLIMIT_NPROC": _threads_of_this_user() + PROCESSES,
+        "RLIMIT_NPROC": _threads_of_this_user() + 300,  # processes and threads, on top of what the user has already
     }
     for name, value in most.items():
         with contextlib.suppress(AttributeError, OSError, ValueError):  # macOS refuses some

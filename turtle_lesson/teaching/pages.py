@@ -22,17 +22,11 @@ from ..ros.runtime import files
 
 CHECKOUT = PUBLISHED.parent
 """Where the project lies, if it was installed from its checkout (as README says)."""
-SOLUTION = "solution"
-"""Tag of the cells that hold a solution."""
-
 
 FOLDER = "my-lesson"
 MEMORY = ".turtle_lesson_pages.json"
 NAMES = tuple(f"{page}.ipynb" for page in (*PAGES, "lab"))
 """The files that a learner gets."""
-
-NOT_TAKEN = ("build", "install", "log")
-"""What a build makes anew in a workspace."""
 
 
 class PageError(Exception):
@@ -157,7 +151,7 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
     """Write a page without outputs and the cells tagged "solution"; returns where, and how many cells that were."""
     notebook = clear(read(path))
     target = path.with_name(f"{path.stem}.student.ipynb") if to is None else to / path.name if to.is_dir() else to
-    cells = [cell for cell in notebook.cells if SOLUTION not in cell.metadata.get("tags", [])]
+    cells = [cell for cell in notebook.cells if "solution" not in cell.metadata.get("tags", [])]
     removed = len(notebook.cells) - len(cells)
     notebook.cells = cells
     try:
@@ -259,7 +253,7 @@ class LearnersFolder:
         if theirs.is_dir() and mine.exists():
             said.append(f"There is a workspace in {self.path} already: {theirs} was not copied.")
         elif theirs.is_dir():
-            shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns(*NOT_TAKEN))
+            shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns("build", "install", "log"))
             said.append("The workspace was copied without its build: build it again.")
         points = progress.ProgressFile(PUBLISHED / progress.FILE).points()
         if points:

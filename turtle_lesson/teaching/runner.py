@@ -202,15 +202,10 @@ def _note(seen: Seen, found: dict[str, Any]) -> None:
 def _keep_the_best(rows: dict[str, list[dict[str, str]]], found: dict[str, Any], replaced: list[str]) -> None:
     """Note the rows of a check, unless they were good before. Nothing is good in a copy that has replaced checking code."""
     name, seen = str(found["check"]), [{key: str(value) for key, value in row.items()} for row in found["rows"]]
+    miss = ("a lesson to look at, and an end of the check", "there was none")
     if replaced:
-        seen.insert(
-            0, _row(BAD, "the lesson's own code, as it was installed", f"this copy replaced {', '.join(replaced)}")
-        )
-    elif not seen:
-        seen = [_row(BAD, "a lesson to look at, and an end of the check", "there was none")]
-    if not all(row["mark"] == GOOD for row in rows.get(name, [_row(BAD, "", "")])):
+        miss = ("the lesson's own code, as it was installed", f"this copy replaced {', '.join(replaced)}")
+    if replaced or not seen:
+        seen.insert(0, {"mark": BAD, "expected": miss[0], "seen": miss[1], "next": ""})
+    if name not in rows or any(row["mark"] != GOOD for row in rows[name]):
         rows[name] = seen
-
-
-def _row(mark: str, expected: str, seen: str) -> dict[str, str]:
-    return {"mark": mark, "expected": expected, "seen": seen, "next": ""}
