@@ -13,7 +13,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -28,15 +28,35 @@ OWN_CASE = "trouble"
 """The check whose expectations depend on the case that was opened."""
 
 
+LONGEST = 10_000
+"""Characters of one text in a report."""
+
+_ESCAPES = re.compile(
+    r"\x1b(?:\[[0-?]*[ -/]*[@-~]|[\]PX^_][^\x07\x1b]*(?:\x07|\x1b\\)?|[ -/]*[0-~])|\x9b[0-?]*[ -/]*[@-~]"
+)
+_CONTROLS = re.compile(
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
+)
+_TAG = re.compile(r"<(?=[A-Za-z/!?])")
+
+
+def plain(text: str) -> str:
+    """The text without escape sequences, control characters and marks that turn the direction of writing; no HTML is left."""
+    return _TAG.sub("‹", _CONTROLS.sub("", _ESCAPES.sub("", text)))[:LONGEST]
+
+
 @dataclass
 class CheckScore:
-    """One check in one copy."""
+    """One check in one copy. Its texts and those of a `Graded` hold nothing that a terminal or a browser would obey."""
 
     name: str
     points: int
     state: str
     """"passed", "failed" or "not run"."""
     rows: list[dict[str, str]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.rows = [{key: plain(value) for key, value in row.items()} for row in self.rows]
 
     @property
     def earned(self) -> int:
@@ -62,6 +82,10 @@ class Graded:
     """Cells that raised something, and what the copy has replaced in the lesson, in words."""
     learner: str = ""
     """Who handed it in, where the folder says so."""
+
+    def __post_init__(self) -> None:
+        self.path, self.learner = Path(plain(str(self.path))), _in_line(plain(self.learner))
+        self.problem, self.errors = plain(self.problem), [plain(each) for each in self.errors]
 
     @property
     def earned(self) -> int:
@@ -153,26 +177,10 @@ def _scored(page: str, asked: list[str], rows: dict[str, list[dict[str, str]]]) 
 MARKS = {"passed": "✓", "failed": "✗", "not run": "–"}
 WIDTH = 110
 
-LONGEST = 10_000
-"""Characters of one text."""
-
-_ESCAPES = re.compile(
-    r"\x1b(?:\[[0-?]*[ -/]*[@-~]|[\]PX^_][^\x07\x1b]*(?:\x07|\x1b\\)?|[ -/]*[0-~])|\x9b[0-?]*[ -/]*[@-~]"
-)
-_CONTROLS = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
-)
-_TAG = re.compile(r"<(?=[A-Za-z/!?])")
-
-
-def plain(text: str) -> str:
-    """The text without escape sequences, control characters and marks that turn the direction of writing; no HTML is left."""
-    return _TAG.sub("‹", _CONTROLS.sub("", _ESCAPES.sub("", text)))[:LONGEST]
-
 
 def in_words(graded: Sequence[Graded]) -> str:
     """A block for each copy: its learner, its path and its points, then a line for each check and for what went wrong."""
-    learners = max(len(_in_line(copy.learner)) for copy in graded)
+    learners = max(len(copy.learner) for copy in graded)
     names = [_named(copy, learners) for copy in graded]
     wide = max(map(len, names))
     lines: list[str] = []
@@ -180,10 +188,10 @@ def in_words(graded: Sequence[Graded]) -> str:
         lines += ["", f"{name.ljust(wide)}  {copy.earned:3} of {copy.points:3} points  {copy.page}".rstrip()]
         widest = max((len(score.name) for score in copy.scores), default=0)
         for score in copy.scores:
-            why = "it was not run" if score.state == "not run" else plain(score.first_miss)
+            why = "it was not run" if score.state == "not run" else score.first_miss
             points = f"{score.earned:2} of {score.points:2}  {why}".rstrip()
             lines.append(_short(f"  {MARKS[score.state]} {score.name.ljust(widest)}  {points}"))
-        lines += [_short(f"  ! {plain(each)}") for each in filter(None, [copy.problem, *copy.errors])]
+        lines += [_short(f"  ! {each}") for each in filter(None, [copy.problem, *copy.errors])]
     done = sum(bool(copy.points) and copy.earned == copy.points for copy in graded)
     failed = sum(bool(copy.problem) for copy in graded)
     not_run = f", {failed} not run to the end" if failed else ""
@@ -192,51 +200,35 @@ def in_words(graded: Sequence[Graded]) -> str:
 
 def in_a_line(copy: Graded) -> str:
     """A copy's learner, path and points, and why it was not run to its end."""
-    why = f": {plain(copy.problem)}" if copy.problem else ""
+    why = f": {copy.problem}" if copy.problem else ""
     return f"{_named(copy)}  {copy.earned} of {copy.points} points{why}"
 
 
 def _named(copy: Graded, wide: int = 0) -> str:
     """The learner, in a column of this width, and the copy's path."""
     path = _in_line(str(copy.path))
-    return f"{_in_line(copy.learner).ljust(wide)}  {path}" if wide or copy.learner else path
+    return f"{copy.learner.ljust(wide)}  {path}" if wide or copy.learner else path
 
 
 def _in_line(text: str) -> str:
-    return " ".join(plain(text).split())
+    return " ".join(text.split())
 
 
 def _short(line: str) -> str:
     indent = line[: len(line) - len(line.lstrip())]
-    line = indent + " ".join(line.split("\n")).strip()
+    line = indent + line.replace("\n", " ").strip()
     return indent + textwrap.shorten(line.strip(), WIDTH - len(indent), placeholder=" …") if len(line) > WIDTH else line
 
 
 def as_json(graded: Sequence[Graded]) -> dict[str, Any]:
     """Everything: `{"copies": [{"path", "learner", "page", "earned", "points", "problem", "errors", "checks": [{…}]}]}`."""
-    return {"format": 1, "copies": [_copy(each) for each in graded]}
-
-
-def _copy(copy: Graded) -> dict[str, Any]:
-    return {
-        "path": plain(str(copy.path)),
-        "learner": _in_line(copy.learner),
-        "page": copy.page,
-        "earned": copy.earned,
-        "points": copy.points,
-        "problem": plain(copy.problem),
-        "errors": [plain(each) for each in copy.errors],
-        "checks": [
-            {
-                "name": each.name,
-                "state": each.state,
-                "earned": each.earned,
-                "points": each.points,
-                "rows": [{key: plain(value) for key, value in row.items()} for row in each.rows],
-            }
-            for each in copy.scores
-        ],
-    }
+    copies = []
+    for copy in graded:
+        found = asdict(copy) | {"path": str(copy.path), "earned": copy.earned, "points": copy.points}
+        found["checks"] = [asdict(each) | {"earned": each.earned} for each in copy.scores]
+        del found["scores"]
+        copies.append(found)
+    return {"format": 1, "copies": copies}
 
 
 def as_csv(graded: Sequence[Graded]) -> str:
@@ -273,7 +265,7 @@ def _suite(copy: Graded) -> ElementTree.Element:
     states = Counter(each.state for each in copy.scores)
     suite = ElementTree.Element(
         "testsuite",
-        name=plain(str(copy.path)),
+        name=str(copy.path),
         tests=str(len(copy.scores) + bool(copy.problem)),
         failures=str(states["failed"]),
         skipped=str(states["not run"]),
@@ -281,18 +273,18 @@ def _suite(copy: Graded) -> ElementTree.Element:
     )
     if copy.learner:
         properties = ElementTree.SubElement(suite, "properties")
-        ElementTree.SubElement(properties, "property", name="learner", value=_in_line(copy.learner))
-    name = plain(str(copy.path.with_suffix("")))
+        ElementTree.SubElement(properties, "property", name="learner", value=copy.learner)
+    name = str(copy.path.with_suffix(""))
     for score in copy.scores:
         case = ElementTree.SubElement(suite, "testcase", classname=name, name=score.name)
         if score.state == "not run":
             ElementTree.SubElement(case, "skipped", message="it was not run")
         elif score.state == "failed":
-            failure = ElementTree.SubElement(case, "failure", message=plain(score.first_miss))
-            failure.text = plain("\n".join(f"{row['mark']} {row['expected']}: {row['seen']}" for row in score.rows))
+            failure = ElementTree.SubElement(case, "failure", message=score.first_miss)
+            failure.text = "\n".join(f"{row['mark']} {row['expected']}: {row['seen']}" for row in score.rows)
     if copy.problem:
         case = ElementTree.SubElement(suite, "testcase", classname=name, name="the notebook runs")
-        ElementTree.SubElement(case, "error", message=plain(copy.problem))
+        ElementTree.SubElement(case, "error", message=copy.problem)
     if copy.errors:
-        ElementTree.SubElement(suite, "system-out").text = plain("\n".join(copy.errors))
+        ElementTree.SubElement(suite, "system-out").text = "\n".join(copy.errors)
     return suite
