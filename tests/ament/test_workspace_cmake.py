@@ -50,7 +50,6 @@ def test_a_mistake(demo: Path, world: World, case: dict[str, object]) -> None:
         ("ament_package()", "ament_package()\nament_package()", "Delete line 12."),
         ("# line 5", "include(demo/node.py)", "Only CMakeLists.txt itself is read here"),
         ("# line 5", f"if({'NOT ' * 5000}X)\nendif()", "is not a condition that CMake knows"),
-        ("# line 5", 'if(X MATCHES "(")\nendif()', "is not a condition that CMake knows"),
     ],
 )  # fmt: skip
 def test_advice_names_the_line(demo: Path, world: World, old: str, new: str, hint: str) -> None:

@@ -142,13 +142,12 @@ class Workspace:
         """
         path = file.relative_to(self.package).as_posix()
         now, shown, memory = _text(file), self._shown(file), self._memory()
+        parts = [text]
         if now is not None and append:
             if text in now:
                 return f"Appending to {shown}: this text is there already"
             parts = story.with_part(_parts(path, now, memory), text)
             text = "".join(parts)
-        else:
-            parts = [text]
         if now is not None and not _may_replace(path, now, text, memory):
             question = [path, _hash(now), _hash(text)]
             if memory.get("asked") != question:

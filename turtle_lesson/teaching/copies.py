@@ -77,11 +77,10 @@ def find(paths: Iterable[Path]) -> list[Copy]:
             )
         else:
             found[Copy(path)] = path
-    copies = _named(found)
-    first: dict[str, int] = {}
-    for number, copy in enumerate(copies):
-        first.setdefault(copy.learner or str(copy.path), number)
-    return sorted(copies, key=lambda copy: first[copy.learner or str(copy.path)])
+    owned: dict[str, list[Copy]] = {}
+    for copy in _named(found):
+        owned.setdefault(copy.learner or str(copy.path), []).append(copy)
+    return [copy for copies in owned.values() for copy in copies]
 
 
 def _is_hidden(path: Path) -> bool:
@@ -183,11 +182,8 @@ def limit(memory: float) -> None:
 
 
 def _threads_of_this_user() -> int:
-    found = 0
-    for each in psutil.process_iter():
-        with contextlib.suppress(psutil.Error):
-            found += each.num_threads() if each.uids().real == os.getuid() else 0
-    return found
+    seen = [each.info for each in psutil.process_iter(["num_threads", "uids"])]
+    return sum(each["num_threads"] or 0 for each in seen if each["uids"] and each["uids"].real == os.getuid())
 
 
 def environment(folder: Path, mark: str, package: str) -> dict[str, str]:

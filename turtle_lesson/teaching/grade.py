@@ -24,10 +24,6 @@ from .copies import MEMORY, Copy
 from .pages import page_of
 from .runner import HOME, Seen, run_here
 
-OWN_CASE = "trouble"
-"""The check whose expectations depend on the case that was opened."""
-
-
 LONGEST = 10_000
 """Characters of one text in a report."""
 
@@ -165,7 +161,8 @@ def _scored(page: str, asked: list[str], rows: dict[str, list[dict[str, str]]]) 
     for check in wanted.values():
         seen, state = rows.get(check.name), "not run"
         if seen is not None:  # everything that the check expects has to be looked at, and to be as expected
-            expected = set() if check.name == OWN_CASE else {each.expected for each in check.expectations}
+            # What `trouble` expects depends on the case that was opened.
+            expected = set() if check.name == "trouble" else {each.expected for each in check.expectations}
             passed = all(row["mark"] == GOOD for row in seen) and expected <= {row["expected"] for row in seen}
             state = "passed" if passed else "failed"
         scores.append(CheckScore(check.name, check.points, state, seen or []))

@@ -160,10 +160,7 @@ def _grade(options: argparse.Namespace) -> int:
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
     for file, text in ((options.junit, as_junit), (options.csv, as_csv)):
         if file is not None:
-            try:
-                file.write_text(text(graded), encoding="utf-8")
-            except OSError as error:
-                raise pages.PageError(f"{file} cannot be written: {error.strerror}") from None
+            file.write_text(text(graded), encoding="utf-8")
     return 1 if any(copy.problem for copy in graded) else 0
 
 
@@ -187,8 +184,8 @@ def _open(options: argparse.Namespace) -> int:
         print("\n".join(said))
         return serve(folder.path, "jupyterhub.singleuser", options.more)
     print("\n".join(said), "Ctrl-C, pressed twice here, ends JupyterLab.")
-    words = ["--Application.log_level=ERROR", *options.more, "--ServerApp.ip=127.0.0.1"]
-    words.append(f"--LabApp.default_url=/lab/tree/{FIRST}")
+    words = ["--Application.log_level=ERROR", *options.more]
+    words += ["--ServerApp.ip=127.0.0.1", f"--LabApp.default_url=/lab/tree/{FIRST}"]
     if options.port is not None:
         words += [f"--ServerApp.port={options.port}", "--ServerApp.port_retries=0"]
     if options.no_browser:

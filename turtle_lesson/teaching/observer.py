@@ -28,9 +28,6 @@ USED = {
 }
 """Python's own modules in which a function of a copy's cells is noticed; so it is in all modules of the lesson."""
 
-MOST = 5
-"""Replacements that are named at most."""
-
 Sent = dict[str, tuple[str, CodeType]]
 """Modules by name: the file of each, and its code."""
 
@@ -57,7 +54,7 @@ def answer(question: dict[str, Any], names: dict[str, Any], key: bytes) -> bytes
             finally:
                 sys.meta_path.remove(finder)
         replaced += [name for name, old in before.items() for name in _changed(name, old, sys.modules[name])]
-    text = json.dumps({"rows": rows, "replaced": sorted(set(replaced))[:MOST]}).encode()
+    text = json.dumps({"rows": rows, "replaced": sorted(set(replaced))[:5]}).encode()
     return hmac.digest(question["secret"] + key, text, hashlib.sha256) + text
 
 

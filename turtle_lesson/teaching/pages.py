@@ -98,7 +98,13 @@ def published(path: Path, source: Path | None = None) -> bytes:
     """
     if path.suffix != ".ipynb":
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
-    name = _published_name(path)
+    name = path.name
+    if not (PUBLISHED / name).is_file():  # a copy under another name
+        metadata = None
+        with suppress(PageError):  # damaged: all the more reason to reset it
+            metadata = read(path).metadata
+        page = page_of(path, metadata)
+        name = f"{page}.ipynb" if page else name
     content = find_published(name, source)
     if content is None:
         raise _missing(name, source)
@@ -122,17 +128,6 @@ def find_published(name: str, source: Path | None = None) -> bytes | None:
         return committed
     file = (source or PUBLISHED) / name
     return file.read_bytes() if file.is_file() else None
-
-
-def _published_name(path: Path) -> str:
-    """The page's own file name: that of the copy, or of the page whose name is a part of it."""
-    if (PUBLISHED / path.name).is_file():
-        return path.name
-    metadata = None
-    with suppress(PageError):  # damaged: all the more reason to reset it
-        metadata = read(path).metadata
-    page = page_of(path, metadata)
-    return f"{page}.ipynb" if page else path.name
 
 
 def _from_git(name: str) -> bytes | None:
@@ -161,8 +156,6 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
         raise PageError(
             f"{target} already exists, and nothing is ever overwritten: choose another name with --to"
         ) from None
-    except OSError as error:
-        raise PageError(f"{target} cannot be written: {error.strerror}") from None
     return target, removed
 
 

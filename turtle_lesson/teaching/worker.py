@@ -97,7 +97,7 @@ def examine(content: bytes, folder: Path, seconds: float, sent: dict[str, Any]) 
         notebook = _parsed(content)
         numbered = enumerate(notebook["cells"], start=1)
         cells = [(number, cell) for number, cell in numbered if cell["cell_type"] == "code"]
-        asked = [name for _, cell in cells for _, _, name in _parts(_source(cell)) if name]
+        asked = [name for _, cell in cells for _, _, name in _parts("".join(cell["source"])) if name]
         yield {"metadata": notebook.get("metadata"), "asked": asked}
         yield {"kernel": kernel.start()}
         for number, cell in cells:
@@ -127,13 +127,9 @@ def _parsed(content: bytes) -> dict[str, Any]:
         raise EndedEarly(str(error).removeprefix("it ")) from None
 
 
-def _source(cell: dict[str, Any]) -> str:
-    return "".join(cell["source"])
-
-
 def _run(kernel: Kernel, number: int, cell: Any) -> Iterator[dict[str, Any]]:
     """Run one cell, and carry out the checks that are due in it, up to the first error."""
-    for source, variable, name in _parts(_source(cell)):
+    for source, variable, name in _parts("".join(cell["source"])):
         if source.strip():
             reply, stopped = kernel.run(source)
             if stopped:

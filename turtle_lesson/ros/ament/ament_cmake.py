@@ -22,7 +22,7 @@ from .cmake_commands import (
     runs_python,
 )
 from .index import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, package_hint, why_not_here
-from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, prefix_of, with_hint
+from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, names_in, prefix_of, with_hint
 from .manifest import Found, faults_in
 from .package import SHARE, BuildFailure, cmake_message, filled, refused
 
@@ -44,7 +44,7 @@ def build_ament_cmake(found: Found, environment: Environment) -> Outcome:
         if again and code == 1 and configuring:
             text, code = f"{text}gmake: *** [Makefile:786: cmake_check_build_system] Error 1\n", 2
         return Outcome(code, with_hint(text, [failure.hint, *build.hints]), seconds=failure.seconds)
-    outcome.seconds = (0.7 if again else 1.2) + 2.0 * build.changed_interfaces()
+    outcome.seconds += 0.7 if again else 1.2
     return outcome
 
 
@@ -90,19 +90,17 @@ class _Build:
         check_targets(items, self.found.name)
         self.hints += self._advice(items)
         stdout = [f"-- Found {name}" for name in sorted(self.seen)]
+        share = prefix_of(self.environment.install, self.found.name) / "share" / self.found.name
+        pairs = [(share / file, self.found.path / file) for file in self.interfaces]
+        changed = sum(not old.is_file() or old.read_bytes() != new.read_bytes() for old, new in pairs)
         return Outcome(
             stderr=with_hint("".join(self.warnings), self.hints),
             stdout=[*stdout, "-- Configuring done", "-- Generating done"],
+            seconds=2.0 * changed,
             items=items,
             left_out=[*self.cpp, *(entry.name for entry in self.entries if entry not in wanted)],
             lacking=self.lacking,
         )
-
-    def changed_interfaces(self) -> int:
-        """How many interfaces are others than the last build has installed."""
-        share = prefix_of(self.environment.install, self.found.name) / "share" / self.found.name
-        pairs = [(share / file, self.found.path / file) for file in self.interfaces]
-        return sum(not old.is_file() or old.read_bytes() != new.read_bytes() for old, new in pairs)
 
     def _text(self) -> str:
         """What CMakeLists.txt says."""
@@ -210,8 +208,7 @@ class _Build:
         if not (folder / "__init__.py").is_file():
             text = f"ament_python_install_package() the Python package folder '{shown}' doesn't exist"
             raise refused(text, command.where, f"Make {shown}/__init__.py, which may be empty.")
-        for file in files_in(folder):
-            self.python.append(Item(f"{_SITE}/{name}/{file.relative_to(folder).as_posix()}", file))
+        self.python += [Item(f"{_SITE}/{name}/{file}", folder / file) for file in names_in(folder)]
         self._check_python_packages(command)
         self.commands |= COMMANDS_OF["ament_cmake_core"]  # which it finds (ament_cmake_python-extras.cmake)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
-from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, files_in, with_hint
+from .install_tree import PYTHON, PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, names_in, with_hint
 from .manifest import Found
 from .package import BuildFailure, filled
 from .setup_py import SetupError, install_scripts, read_setup
@@ -111,9 +111,9 @@ class _Build:
                 raise _refused(f"error: package directory '{place}' does not exist", hint)
         for name in top if self.environment.symlink else dict.fromkeys(self.packages):
             folder = self._folder(name)  # with --symlink-install, colcon puts the whole source folder on the path
-            files = files_in(folder) if self.environment.symlink else self._files_of(name)
+            files = names_in(folder) if self.environment.symlink else self._files_of(name)
             place = f"{SITE}/{name.replace('.', '/')}"
-            items += [Item(f"{place}/{file.relative_to(folder).as_posix()}", file) for file in files]
+            items += [Item(f"{place}/{file}", folder / file) for file in files]
         version = self.setup.get("version", "0.0.0")
         texts = {
             "PKG-INFO": f"Metadata-Version: 2.1\nName: {self.found.name}\nVersion: {version}\n",
@@ -124,13 +124,14 @@ class _Build:
         info = f"{SITE}/{self.found.name}-{version}-py{PYTHON.removeprefix('python')}.egg-info"
         return items + [Item(f"{info}/{name}", text=text) for name, text in texts.items()]
 
-    def _files_of(self, package: str) -> list[Path]:
+    def _files_of(self, package: str) -> list[str]:
         """What is installed of a package: its own modules, and the other files that `package_data=` names."""
         folder, patterns = self._folder(package), self.setup["package_data"]
         wanted = ["*.py", *_texts(patterns.get("")), *_texts(patterns.get(package))]
         matches = {match for pattern in wanted for match in glob(pattern, root_dir=folder, recursive=True)}
         found = {Path(os.path.normpath(folder / match)) for match in matches if not match.endswith(".pyc")}
-        return sorted(file for file in found if file.is_file() and file.is_relative_to(folder))
+        inside = [file for file in found if file.is_file() and file.is_relative_to(folder)]
+        return sorted(file.relative_to(folder).as_posix() for file in inside)
 
     def _folder(self, package: str) -> Path:
         """Where a package lies: in its own folder, unless `package_dir=` says otherwise."""
@@ -177,7 +178,7 @@ class _Build:
             inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
             raise _refused(text, f"Give the path relative to the folder of setup.py: '{inside}'.")
         if not source.is_file():
-            hint = f"setup.py names it in data_files. {did_you_mean(name, self._there('*'))}".strip()
+            hint = f"setup.py names it in data_files. {did_you_mean(name, names_in(self.found.path))}".strip()
             raise _refused(f"error: can't copy '{name}': doesn't exist or not a regular file", hint)
         can_run = os.name != "nt" and os.access(source, os.X_OK)  # a program stays one
         return Item((PurePosixPath(place.replace(os.sep, "/")) / source.name).as_posix(), source, program=can_run)
@@ -218,15 +219,11 @@ class _Build:
             if not re.search(rf"\b{re.escape(function.partition('.')[0])}\b", text):
                 self.hints.append(f"entry point '{name}': {module} has no {function}(), so `ros2 run` will fail.")
         elif own or importlib.util.find_spec(module.partition(".")[0]) is None:
-            close = did_you_mean(module, [path.removesuffix(".py").replace("/", ".") for path in self._there("*.py")])
+            modules = [file.removesuffix(".py").replace("/", ".") for file in names_in(self.found.path, ".py")]
+            close = did_you_mean(module, modules)
             self.hints.append(
                 f"entry point '{name}': there is no module {module}, so `ros2 run` will fail. {close}".strip()
             )
-
-    def _there(self, pattern: str) -> list[str]:
-        """The files of the package that a pattern fits, as seen from its folder."""
-        folder = self.found.path
-        return sorted(path.relative_to(folder).as_posix() for path in folder.rglob(pattern) if path.is_file())
 
 
 def _refused(text: str, hint: str) -> BuildFailure:

@@ -95,9 +95,8 @@ class Builder:
         """Build the plan's packages; return colcon's exit code."""
         layout = "merged" if self.plan.merged else "isolated"
         prepare(self.plan.install, self.plan.build, self.plan.log, layout)
-        queued = [found.name for found in self.waiting]
         self._pass(_BEGIN)
-        self._say("console_package_list", "\n- ".join(["Topological order", *queued]))
+        self._say("console_package_list", "\n- ".join(["Topological order", *(found.name for found in self.waiting)]))
         while self.waiting or self.running:
             self._start()
             if not self.running:
@@ -111,7 +110,7 @@ class Builder:
                 break
         write_setup_files(self.plan.install)
         self._pass(_END)
-        self._summarise(len(queued))
+        self._summarise()
         self._warn_of_cpp()
         return self.code
 
@@ -219,13 +218,12 @@ class Builder:
 
     # -- at the end ------------------------------------------------------------------------------------------------
 
-    def _summarise(self, queued: int) -> None:
+    def _summarise(self) -> None:
         finished, *others = self.ended.items()
         lines = [f"\nSummary: {_packages(len(finished[1]))} finished [{as_seconds(self.now)}]"]
         lines += [f"  {_packages(len(names))} {how}: {' '.join(sorted(names))}" for how, names in others if names]
-        left = queued - sum(len(self.ended[how]) for how in ("finished", "failed", "aborted"))
-        if left:
-            lines.append(f"  {_packages(left)} not processed")
+        if self.waiting:
+            lines.append(f"  {_packages(len(self.waiting))} not processed")
         self._say("summary", "\n".join(lines))
 
     def _warn_of_cpp(self) -> None:

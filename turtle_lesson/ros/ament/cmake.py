@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 import re
-import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from glob import glob
@@ -203,25 +202,12 @@ def _holds(words: list[tuple[str, bool]], variables: Mapping[str, str]) -> bool:
         elif len(waiting) > 1 and not waiting[-1][1] and _BINARY.fullmatch(waiting[-1][0]):
             operator, right = waiting.pop()[0], waiting.pop()
             one, other = (word if whole else variables.get(word, word) for word, whole in ((text, quoted), right))
-            holds = _compared(one, operator, other)
+            holds = operator in {"STREQUAL", "EQUAL"} and one == other
         else:
             value = text if quoted or text.upper() in _TRUE else variables.get(text, "")
             holds = value.upper() in _TRUE or not (quoted or value.upper() in _FALSE)
         parts.append("yes" if holds else "no")
     return bool(parts) and bool(eval(" ".join(parts), {"yes": True, "no": False}))
-
-
-def _compared(one: str, operator: str, other: str) -> bool:
-    match operator:
-        case "STREQUAL" | "EQUAL":
-            return one == other
-        case "IN_LIST":
-            return one in other.split(";")
-        case "MATCHES":
-            # Python warns where brackets hold what may mean more one day: `[[a-z]`
-            with warnings.catch_warnings(action="ignore", category=FutureWarning):
-                return re.search(other, one) is not None
-    return False
 
 
 # -- commands that take effect -------------------------------------------------------------------------------------------
@@ -275,7 +261,7 @@ class _Evaluator:
         words = [(self._expanded(argument, call), argument.quoted) for argument in call.args]
         try:
             return "taken" if call.name == "else" or _holds(words, self.variables) else "waiting"
-        except (SyntaxError, TypeError, re.error):
+        except (SyntaxError, TypeError):
             given = " ".join(f'"{word}"' for word, _ in words)
             said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
             reason = f"if({' '.join(word for word, _ in words)}) is not a condition that CMake knows"

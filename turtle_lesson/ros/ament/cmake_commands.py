@@ -14,12 +14,12 @@ from pathlib import Path
 
 from ..idl import names
 from ..idl.definition import parse
-from ..idl.model import Definition, InvalidDefinition
+from ..idl.model import InvalidDefinition
 from ..idl.names import did_you_mean, module_name
 from ..idl.registry import FOLDERS, Registry
 from ..sim.errors import shown_path
 from .cmake import Command, until
-from .install_tree import PYTHON_FOLDERS, Item, files_in
+from .install_tree import PYTHON_FOLDERS, Item, names_in
 from .manifest import Found
 from .package import SHARE, BuildFailure, filled, refused
 
@@ -98,8 +98,7 @@ def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item
         raise refused(text, entry.command.where, "Put the files into the package.")
     if not source.exists():
         text = f'file INSTALL cannot find "{shown_path(str(source))}": No such file or directory.'
-        there = [path.relative_to(found.path).as_posix() for path in files_in(found.path)]
-        close = did_you_mean(shown, [path for path in there if path.endswith(".py") or not is_program])
+        close = did_you_mean(shown, names_in(found.path, ".py" if is_program else ""))
         hint = f"{at}, names '{shown}', which does not exist. {close}".strip()
         raise refused(text, "cmake_install.cmake:46 (file)", hint, seconds=1.2)
     target = "/".join(filter(None, (entry.destination, entry.name)))
@@ -116,10 +115,9 @@ def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item
         yield Item(target, source, program=runs)
         return
     items = []
-    for file in files_in(source):
-        place = "/".join(filter(None, (target, file.relative_to(source).as_posix())))
-        can_run = runs or ("USE_SOURCE_PERMISSIONS" in options and os.access(file, os.X_OK))
-        items.append(Item(place, file, program=can_run))
+    for name in names_in(source):
+        can_run = runs or ("USE_SOURCE_PERMISSIONS" in options and os.access(source / name, os.X_OK))
+        items.append(Item("/".join(filter(None, (target, name))), source / name, program=can_run))
     if entry.destination == f"lib/{found.name}" and items and not any(item.program for item in items):
         hints.append(
             f"{at}: what install(DIRECTORY …) installs cannot be run. Write "
@@ -173,8 +171,7 @@ class InterfaceCheck:
                     f"rosidl_generate_interfaces() the passed file '{name}' doesn't exist relative to the "
                     f"CMAKE_CURRENT_SOURCE_DIR '{shown_path(str(folder))}'"
                 )
-                like = sorted(folder.rglob(f"*{Path(name).suffix or '.msg'}"))
-                there = [path.relative_to(folder).as_posix() for path in like]
+                there = list(names_in(folder, Path(name).suffix or ".msg"))
                 hint = did_you_mean(name, there) or f"There are: {', '.join(there) or 'none'}."
                 if name.endswith(","):
                     hint = "CMake separates names by spaces or new lines: leave the commas out."
@@ -207,7 +204,9 @@ class InterfaceCheck:
                     raise self._adapter(error) from None
                 where = file if error.line is None else f"{file}, line {error.line}"
                 raise self._uncompiled(file, error.line, error.reason, _located(where, error.hint)) from None
-            lines = _packages_in(types.definition(f"{self._found.name}/{interface}"))
+            definition = types.definition(f"{self._found.name}/{interface}")
+            fields = [field for part in (definition, *definition.parts) for field in reversed(part.fields)]
+            lines = {field.type.package: field.line for field in fields if field.type.package}
             for package in sorted(lines.keys() - known):
                 hint = (
                     f"{file}, line {lines[package]}, uses messages of {package}: in CMakeLists.txt write "
@@ -267,12 +266,6 @@ class InterfaceCheck:
         return refused(
             whole, _ADAPT, hint, [f"{_GENERATE}:130 (rosidl_adapt_interfaces)", self._command.where], seconds=0.3
         )
-
-
-def _packages_in(definition: Definition) -> dict[str, int]:
-    """The packages whose messages a definition's own fields are, each with the line that says so."""
-    fields = [field for part in (definition, *definition.parts) for field in reversed(part.fields)]
-    return {field.type.package: field.line for field in fields if field.type.package}
 
 
 def _located(where: str, hint: str) -> str:

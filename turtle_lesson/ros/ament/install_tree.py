@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from ..idl.registry import Registry
 from ..runtime import files
 from ..sim.errors import shown_path
-from .manifest import Found, by_rounds
+from .manifest import RUNTIME, Found, by_rounds
 from .package import BuildFailure, ColconError, Package, PythonProgram
 
 PYTHON = "python3.10"
@@ -81,8 +81,7 @@ class Environment:
 
 def with_hint(text: str, hints: Iterable[str]) -> str:
     """The real tool's text, and below it what to try."""
-    lines = "".join(f"Hint: {hint}\n" for hint in hints if hint)
-    return f"{text}{lines}" if lines else text
+    return text + "".join(f"Hint: {hint}\n" for hint in hints if hint)
 
 
 def check_targets(items: Iterable[Item], name: str) -> None:
@@ -158,11 +157,12 @@ def _write(item: Item, target: Path, symlink: bool) -> None:
         target.chmod(0o755)
 
 
-def files_in(folder: Path) -> Iterator[Path]:
-    """The files below a folder, sorted, without those that Python compiles."""
+def names_in(folder: Path, ending: str = "") -> Iterator[str]:
+    """The files below a folder, as seen from it and sorted, without those that Python compiles."""
     for place, folders, names in os.walk(folder):
         folders[:] = sorted(name for name in folders if name != "__pycache__")
-        yield from (Path(place, name) for name in sorted(names) if not name.endswith(".pyc"))
+        wanted = [name for name in sorted(names) if name.endswith(ending) and not name.endswith(".pyc")]
+        yield from (Path(place, name).relative_to(folder).as_posix() for name in wanted)
 
 
 def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
@@ -172,7 +172,7 @@ def _index(found: Found, outcome: Outcome) -> Iterator[Item]:
         yield Item(f"{_INDEX}/packages/{name}")
     if all(item.target != f"share/{name}/package.xml" for item in outcome.items):
         yield Item(f"share/{name}/package.xml", found.path / "package.xml")
-    yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(found.runtime_dependencies))))
+    yield Item(f"share/colcon-core/packages/{name}", text=":".join(sorted(set(found.texts(*RUNTIME)))))
 
 
 def write_setup_files(install: Path) -> None:

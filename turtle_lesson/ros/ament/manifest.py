@@ -19,9 +19,8 @@ from .setup_py import SetupError, read_setup
 
 BUILD_TYPES = ("ament_cmake", "ament_python", "cmake")
 IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
-_ORDERING = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
-             "exec_depend", "run_depend", "test_depend")  # fmt: skip
-_RUNTIME = ("depend", "exec_depend", "build_export_depend", "buildtool_export_depend", "run_depend")
+RUNTIME = ("depend", "exec_depend", "build_export_depend", "buildtool_export_depend", "run_depend")
+"""The tags that name what a package needs when it runs."""
 
 
 @dataclass
@@ -60,11 +59,6 @@ class Found:
         """Whether colcon knows how to build it at all."""
         return self.root is None or not self.build_type or self.build_type in BUILD_TYPES
 
-    @property
-    def runtime_dependencies(self) -> list[str]:
-        """The packages that are needed when it runs."""
-        return self.texts(*_RUNTIME)
-
     def texts(self, *tags: str) -> list[str]:
         """What package.xml says in these tags, in its order."""
         return [] if self.root is None else _texts(self.root, *tags)
@@ -88,7 +82,7 @@ def read_found(path: Path, base: Path) -> Found:
     if build_type != "ament_cmake" and (faults := faults_in(root)) and (name_in_setup := _name_in_setup(path)):
         fault, hint = next(iter(faults.items()))
         return Found(name_in_setup, path, shown, xml_error=f"{fault}. {hint}".rstrip(". "))
-    dependencies = list(dict.fromkeys(filter(None, _texts(root, *_ORDERING))))
+    dependencies = list(dict.fromkeys(filter(None, _texts(root, *_DEPENDS[:-1], "run_depend"))))
     return Found(name, path, shown, build_type, dependencies, root)
 
 
@@ -182,13 +176,16 @@ def needed_by(packages: Iterable[Found], names: Iterable[str]) -> set[str]:
 
 _DEPENDS = ("depend", "build_depend", "build_export_depend", "buildtool_depend", "buildtool_export_depend",
             "exec_depend", "test_depend", "doc_depend")  # fmt: skip
+"""The last one alone has no part in the order of packages."""
 _IN_ALL = {
     "name", "version", "description", "maintainer", "license", "url", "author", "conflict", "replace", "export",
     "build_depend", "buildtool_depend", "test_depend",
 }  # fmt: skip
-_SINCE_2 = {"depend", "build_export_depend", "buildtool_export_depend", "exec_depend", "doc_depend"}
-_SINCE_3 = {"group_depend", "member_of_group"}
-_TAGS = {"1": _IN_ALL | {"run_depend"}, "2": _IN_ALL | _SINCE_2, "3": _IN_ALL | _SINCE_2 | _SINCE_3}
+_TAGS = {
+    "1": _IN_ALL | {"run_depend"},
+    "2": _IN_ALL | {*_DEPENDS},
+    "3": _IN_ALL | {*_DEPENDS, "group_depend", "member_of_group"},
+}
 _EMAIL = re.compile(r"[-a-zA-Z0-9_%+]+(\.[-a-zA-Z0-9_%+]+)*@[-a-zA-Z0-9%]+(\.[-a-zA-Z0-9%]+)*\.[a-zA-Z]{2,}")
 
 

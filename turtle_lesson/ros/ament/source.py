@@ -36,15 +36,13 @@ if TYPE_CHECKING:
     from ..distro import Release
     from ..runtime.world import World
 
-_UNDERLAY = "/opt/ros/"
-
 
 def source(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: Path) -> int:
     """`source FILE`: returns bash's exit code; a wrong name is answered in bash's words, and with what to try."""
     if not words:
         print("bash: source: filename argument required\nsource: usage: source filename [arguments]", file=stderr)
         return 2
-    if words[0].startswith(_UNDERLAY):
+    if words[0].startswith("/opt/ros/"):
         return 0  # the simulation's own packages are always there
     file = cwd / Path(words[0]).expanduser()
     is_install = (file.parent / LAYOUT).is_file()
@@ -166,30 +164,23 @@ def read_source_package(folder: Path | str) -> Package:
     environment = Environment(folder / "install", folder / "build", symlink=found.is_python, compiles=False)
     outcome = checked_build(found, environment)
     share, libexec, site = f"share/{found.name}/", f"lib/{found.name}/", PYTHON_FOLDERS["python"]
-    modules = {
-        item.source.parents[item.target.removeprefix(site).count("/") - 1]
-        for item in outcome.items
-        if item.source and item.target.startswith(f"{site}/")
-    }
+    files = {item.target: item.source for item in outcome.items if item.source}
+    inside = {target.removeprefix(site): path for target, path in files.items() if target.startswith(f"{site}/")}
+    modules = sorted({path.parents[inner.count("/") - 1] for inner, path in inside.items()})
     executables: dict[str, Target] = {}
     for item in outcome.items:
         if item.program and item.target.startswith(libexec):
             path, text = (item.source, None) if item.source else (folder / item.target, item.text)
-            program = PythonProgram(path, tuple(sorted(modules)), text)
+            program = PythonProgram(path, tuple(modules), text)
             executables[item.target.removeprefix(libexec)] = program if modules else path
-    installed = {
-        item.target.removeprefix(share): item.source
-        for item in outcome.items
-        if item.source and item.target.startswith(share)
-    }
+    installed = {target.removeprefix(share): path for target, path in files.items() if target.startswith(share)}
     interfaces = [item.target.removeprefix(share) for item in outcome.items if item.source and item.copied]
-    return Package(found.name, folder, executables, interfaces, folder, installed=installed, modules=sorted(modules))
+    return Package(found.name, folder, executables, interfaces, folder, installed=installed, modules=modules)
 
 
 def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | None]]) -> Registry:
     """The interfaces that a package's build sees: the built-in ones, what is sourced, `others`, and its own files."""
-    built_in = Registry().packages()
-    sourced = [registry.package(name) for name in registry.packages() if name not in built_in]
+    sourced = [registry.package(name) for name in registry.packages() if registry.was_added(name)]
     places = {package.name: (package.directory, package.files) for package in sourced} | dict(others)
     places.pop(found.name, None)
     files = tuple(definitions(found.path))
