@@ -363,7 +363,7 @@ def test_a_place_without_packages(tmp_path: Path, world: World, monkeypatch: pyt
     monkeypatch.chdir(tmp_path)
     answer = colcon(world)
     assert (answer.code, answer.out) == (0, "\nSummary: 0 packages finished [0.20s]\n")
-    assert "no folder in it has a package.xml" in answer.err
+    assert "no folder here has a package.xml" in answer.err
 
 
 def test_names_that_would_lead_elsewhere(package: Path, world: World, tmp_path: Path) -> None:

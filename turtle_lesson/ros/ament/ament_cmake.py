@@ -111,12 +111,9 @@ class _Build:
         except FileNotFoundError:
             place = shown_path(str(folder))
             text = f'CMake Error: The source directory "{place}" does not appear to contain CMakeLists.txt.\n'
-            hint = "An ament_cmake package is built from its CMakeLists.txt. Or is this an ament_python package?"
-            if (folder / "setup.py").is_file():
-                hint = (
-                    "There is a setup.py: if this is to be an ament_python package, say so in package.xml: "
-                    "<build_type>ament_python</build_type>."
-                )
+            hint = (
+                "A package that is built from a setup.py says <build_type>ament_python</build_type> in its package.xml."
+            )
             raise BuildFailure(text, hint, seconds=0.1) from None
         except (OSError, UnicodeDecodeError) as error:
             raise BuildFailure(f"CMake Error: CMakeLists.txt cannot be read: {error}\n", seconds=0.1) from None
@@ -124,7 +121,7 @@ class _Build:
     # -- configure -------------------------------------------------------------------------------------------------
 
     def _configure(self, command: Command) -> None:
-        name, args = command.name, command.args
+        name, args, first = command.name, command.args, "".join(command.args[:1])
         if name not in self.commands:
             if self.lacking and not did_you_mean(name, self.commands):
                 return  # a command of a package that is not here, and no slip of the pen
@@ -139,10 +136,13 @@ class _Build:
         match name:
             case "find_package":
                 self._find_package(command)
-            case "include" if not self.cpp:
-                self._include(command, "".join(args[:1]))
-            case "add_subdirectory" if args and not (self.found.path / args[0]).is_dir():
-                text = f'add_subdirectory given source "{args[0]}" which is not an existing directory.'
+            case "include" if (self.found.path / first).is_file() and not self.cpp:
+                hint = "Only CMakeLists.txt itself is read here: write the lines of that file into it."
+                raise refused(f"include({first}) is not carried out in this simulation.", command.where, hint)
+            case "include" if first not in _MODULES and not self.cpp:
+                raise refused(f"include could not find requested file:\n\n  {first}", command.where)
+            case "add_subdirectory" if args and not (self.found.path / first).is_dir():
+                text = f'add_subdirectory given source "{first}" which is not an existing directory.'
                 raise refused(text, command.where)
             case "message":
                 self._message(command)
@@ -184,13 +184,6 @@ class _Build:
                 raise BuildFailure(text, hint)
             self.warnings.append(text)
             self.hints.append(hint)
-
-    def _include(self, command: Command, name: str) -> None:
-        if name and (self.found.path / name).is_file():
-            hint = "Only CMakeLists.txt itself is read here: write the lines of that file into it."
-            raise refused(f"include({name}) is not carried out in this simulation.", command.where, hint)
-        if name not in _MODULES:
-            raise refused(f"include could not find requested file:\n\n  {name}", command.where)
 
     def _message(self, command: Command) -> None:
         kind, text = (command.args or ("",))[0], "".join(command.args[1:])

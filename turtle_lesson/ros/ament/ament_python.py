@@ -61,9 +61,7 @@ class _Build:
             until = "Until it is corrected, colcon takes the folder for a Python package without ROS."
             self.hints.append(f"{shown_path(str(folder / 'package.xml'))}: {fault}. {until}")
         if not (folder / "setup.py").is_file():
-            hint = "An ament_python package is built from its setup.py."
-            if (folder / "CMakeLists.txt").is_file():
-                hint += " There is a CMakeLists.txt: is <build_type>ament_cmake</build_type> meant in package.xml?"
+            hint = "A package that is built from a CMakeLists.txt says <build_type>ament_cmake</build_type> in package.xml."
             raise BuildFailure(f"error: there is no setup.py in {shown_path(str(folder))}\n", hint, seconds=0.1)
         self.setup = read_setup(folder)
         self._check_options()

@@ -70,10 +70,7 @@ class _Job:
     environment: Environment
     outcome: Outcome
     began: float
-
-    @property
-    def ends(self) -> float:
-        return self.began + self.outcome.seconds
+    ends: float
 
 
 class Builder:
@@ -141,7 +138,7 @@ class Builder:
                     outcome = Outcome(1, seconds=0.01, colcon_error=missing)
                 else:
                     outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
-                self.running.append(_Job(found, environment, outcome, self.now))
+                self.running.append(_Job(found, environment, outcome, self.now, self.now + outcome.seconds))
 
     def _missing(self, found: Found) -> str:
         """What colcon says where packages of this workspace are needed and neither built nor sourced."""
@@ -210,10 +207,9 @@ class Builder:
             self._say("console_direct", line)
         if stderr:
             self._say("console_direct", stderr, self.err)
-        if self.handlers["console_cohesion"]:
-            text = "\n".join([f"--- output: {name}", *stdout, *([stderr] if stderr else []), "---"])
-            self._say("console_cohesion", text)
-        elif stderr and not self.handlers["console_direct"]:
+        lines = [f"--- output: {name}", *stdout, *([stderr] if stderr else []), "---"]
+        self._say("console_cohesion", "\n".join(lines))
+        if stderr and not self.handlers["console_cohesion"] and not self.handlers["console_direct"]:
             self._say("console_stderr", f"--- stderr: {name}\n{stderr}\n---", self.err)
 
     # -- at the end ------------------------------------------------------------------------------------------------

@@ -63,11 +63,7 @@ class PackageIndex:
         )
 
     def executable(self, package: str, executable: str) -> Target:
-        """What runs as `executable` of a package.
-
-        Raises PackageNotFoundError if there is no such package, and ExecutableNotFoundError if it has no such
-        executable, with the real text.
-        """
+        """What runs as `executable` of a package. Raises PackageNotFoundError or ExecutableNotFoundError with the real text."""
         found = self.get(package)
         if executable in found.executables:
             return found.executables[executable]
@@ -99,11 +95,7 @@ class LaunchedPackages(PackageIndex):
         return super().get(name)
 
     def executable(self, package: str, executable: str) -> Target:
-        """What runs as `executable` of a package.
-
-        Raises NotHereError if only a robot can start it, and PackageNotFoundError or ExecutableNotFoundError as
-        otherwise.
-        """
+        """What runs as `executable` of a package. Raises NotHereError, too, if only a robot can start it."""
         if _why_absent(package, self._layers):
             raise left_out(package if package == executable else f"{executable} of {package}", package)
         try:

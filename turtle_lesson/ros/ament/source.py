@@ -221,7 +221,6 @@ _LEFT_OUT = (
     "__pycache__", "*.pyc", ".git", ".ipynb_checkpoints", ".mypy_cache", ".pytest_cache", "build", "install", "log",
 )  # fmt: skip
 _TEXT = {".py", ".xml", ".txt", ".msg", ".srv", ".action", ".cfg", ".yaml", ".yml", ".md", ""}
-_OURS = "turtle_lesson"
 
 
 @dataclass
@@ -267,9 +266,9 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
         outcome = checked_build(found, environment)
     imports = list(_imports(found.path))
     for file, line, name in imports:
-        if name == _OURS:
+        if name == "turtle_lesson":
             hint = "A robot does not have it: use only rclpy and the topics."
-            raise PackageError(f"this imports {_OURS}", file, line, hint)
+            raise PackageError("this imports turtle_lesson", file, line, hint)
     if target.exists():
         shutil.rmtree(target)
     shutil.copytree(found.path, target, ignore=shutil.ignore_patterns(*_LEFT_OUT))

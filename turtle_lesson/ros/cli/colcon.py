@@ -148,11 +148,8 @@ class _Command:
                 place = f"{each.shown}/package.xml"
                 self.err.write(f"Hint: {place}: the build_type is unknown. {build_type_hint(each.build_type)}\n")
         if not workspace:
-            where = "its src/" if (self.cwd / "src").is_dir() else "it"
-            above = self.cwd.parent / "src"
-            hint = "Go to the workspace first: cd .." if above.is_dir() and above != self.cwd else ""
-            text = f"Hint: no folder in {where} has a package.xml; ros2 pkg create makes one. {hint}".rstrip()
-            self.err.write(f"{text}\n")
+            where = "Are you in the workspace's folder, which contains src/?"
+            self.err.write(f"Hint: no folder here has a package.xml; ros2 pkg create makes one. {where}\n")
         plan = Plan(
             packages=chosen,
             install=self.cwd / args.install_base,
