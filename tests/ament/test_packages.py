@@ -90,7 +90,7 @@ def test_the_finished_package_is_a_good_one() -> None:
 
 def test_what_is_missing(demo: Path) -> None:
     (demo / "CMakeLists.txt").rename(demo / "CMakeList.txt")
-    assert "does not appear to contain CMakeLists.txt. Hint: An ament_cmake package is built from its" in refused(demo)
+    assert "does not appear to contain CMakeLists.txt. Hint: A package that is built from a setup.py" in refused(demo)
     (demo / "package.xml").unlink()
     assert "demo/package.xml: it is missing. A folder is a ROS 2 package if" in refused(demo)
 
