@@ -41,7 +41,7 @@ def archive(folder: Path, left_out: Collection[str] = ()) -> bytes:
     for path in sorted(folder.rglob("*")):
         place = path.relative_to(folder)
         if path.is_file() and place.parts[0] not in left_out and "__pycache__" not in place.parts:
-            files[place.as_posix()] = (path.stat().st_mode & 0o777, path.read_bytes())
+            files[place.as_posix()] = (path.stat().st_mode & 0o777 | 0o600, path.read_bytes())
     return zlib.compress(pickle.dumps(files, protocol=4), 1)
 
 
