@@ -28,8 +28,6 @@ PATIENCE = 150.0
 A view gives one every 20 s, and a browser may hold up those of a hidden window for a minute.
 """
 
-FOLDER = Path(__file__).with_name("js")
-
 _LAST = vars(traitlets.HasTraits()).keys() | {"is_made", "_last_words"}
 """The attributes that a closed widget still needs: those of traitlets, and two of its own."""
 
@@ -44,7 +42,7 @@ def pack(numbers: ArrayLike) -> bytes:
 @cache
 def source(kind: str, *names: str) -> str:
     """The files of a widget one after another: its scripts ("js"), as one module, or its style sheets ("css")."""
-    return "\n".join((FOLDER / f"{name}.{kind}").read_text(encoding="utf-8") for name in names)
+    return "\n".join((Path(__file__).with_name("js") / f"{name}.{kind}").read_text(encoding="utf-8") for name in names)
 
 
 class LiveWidget(anywidget.AnyWidget):
@@ -144,11 +142,6 @@ class LiveWidget(anywidget.AnyWidget):
         limit = real_monotonic() - PATIENCE
         return any(time > limit for time in self._views.values())
 
-    @property
-    def _pages(self) -> frozenset[str]:
-        """The pages of a browser on which it has views; a view is named by its page, a slash, and a name of its own."""
-        return frozenset(view.partition("/")[0] for view in self._views)
-
     def _send(self, msg: dict[str, Any], buffers: list[bytes] | None = None) -> None:
         """Send a message to the views; in a frame, have it wait for those of the other widgets."""
         outbox = self.backend.loop.outbox
@@ -163,7 +156,9 @@ class LiveWidget(anywidget.AnyWidget):
         by_pages: dict[frozenset[str], list[Message]] = {}
         for message in outbox:
             if message[0].comm is not None:  # or it was closed since then
-                by_pages.setdefault(message[0]._pages, []).append(message)
+                # a view is named by its page, a slash, and a name of its own
+                pages = frozenset(view.partition("/")[0] for view in message[0]._views)
+                by_pages.setdefault(pages, []).append(message)
         for messages in by_pages.values():
             first, data, buffers = messages[0]
             if len(messages) == 1:

@@ -193,12 +193,10 @@ class ParametersPanel(LiveWidget):
             return
 
         def told(answer: Any) -> None:
-            result = next(iter(answer.results), None)
-            if result is not None and result.successful:
+            (result,) = answer.results
+            if result.successful:
                 found.value = wanted
-                self._told(found, "")
-            else:
-                self._told(found, f"Refused: {(result.reason if result else '') or 'refused, without a reason'}")
+            self._told(found, "" if result.successful else f"Refused: {result.reason or 'refused, without a reason'}")
 
         found.pending = True
         future = self._call("set", told, parameters=[msg.Parameter(name=name, value=wanted)])

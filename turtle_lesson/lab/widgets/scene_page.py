@@ -36,10 +36,13 @@ class ScenePage:
 
     def __init__(self, title: str, text: str, state: dict[str, Any]) -> None:
         self.text = text
+        written = json.dumps(  # bytes as text that JavaScript's `atob` reads, marked as such
+            state, sort_keys=True, default=lambda value: {"base64": base64.b64encode(value).decode("ascii")}
+        )
         self.html = source("html", "scene_page").format(
             title=html.escape(title),
             css=source("css", "base", "scene", "scene_page"),
-            state=json.dumps(state, sort_keys=True, default=_written).replace("<", "\\u003c"),
+            state=written.replace("<", "\\u003c"),
             script=source("js", *VIEW_SCRIPTS, "scene_page"),
         )
 
@@ -62,11 +65,6 @@ def state_of(scene: Scene) -> dict[str, Any]:
     """What a view needs to know."""
     state: dict[str, Any] = {name: getattr(scene, name) for name in ("bundle", "turtle", *PARTS)}
     return {**state, "description": scene.description, "words": "", "ended": False}
-
-
-def _written(value: bytes) -> dict[str, str]:
-    """Bytes as text that JavaScript's `atob` reads, marked as such."""
-    return {"base64": base64.b64encode(value).decode("ascii")}
 
 
 PERIOD = 0.05

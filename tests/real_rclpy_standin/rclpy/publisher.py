@@ -1,0 +1,3 @@
+"""Publishers, under the name that rclpy has for them."""
+
+from rclpy.subscription import Publisher as Publisher

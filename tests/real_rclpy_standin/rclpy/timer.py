@@ -1,0 +1,3 @@
+"""Timers, under the name that rclpy has for them."""
+
+from rclpy.node import Timer as Timer
