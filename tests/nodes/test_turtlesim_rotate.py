@@ -187,7 +187,7 @@ def test_a_turtle_that_has_turned_comes_to_rest() -> None:
     world = TurtleWorld()
     turtle = world.turtles["turtle1"]
     rotation = turtle.rotate_to(0.1)
-    for _ in range(20):
+    for _ in range(80):
         world.tick()
     assert rotation.reached and turtle.at_rest
     assert (turtle.angular, turtle.theta) == (0.0, pytest.approx(0.096))

@@ -16,10 +16,12 @@ from turtle_lesson.turtlesim.turtle import (
     DEFAULT_PEN,
     HEIGHT,
     WIDTH,
-    Canvas,
+    Cells,
     Turtle,
     TurtleError,
     TurtleWorld,
+    cell_at,
+    draw,
     float32,
 )
 
@@ -244,10 +246,10 @@ def test_the_heading_always_stays_within_half_a_turn(theta: float, angular: floa
 def test_a_wall_holds_the_turtle_and_reports_the_place_with_y_from_the_top() -> None:
     world = TurtleWorld()
     far = world.spawn(50.0, 50.0, 0.0, "far")
-    (hit,) = world.tick()
-    assert (hit.turtle, f"x={hit.x:f}, y={hit.flipped_y:f}") == (far, "x=50.000000, y=-38.911110")
+    ((name, (x, flipped_y)),) = world.tick().items()
+    assert (name, f"x={x:f}, y={flipped_y:f}") == ("far", "x=50.000000, y=-38.911110")
     assert (far.x, far.y) == (WIDTH, HEIGHT)
-    assert world.tick() == []
+    assert world.tick() == {}
 
 
 def test_the_turtle_slides_along_a_wall_and_every_tick_of_pushing_is_a_hit() -> None:
@@ -375,7 +377,7 @@ def test_a_driving_turtle_sees_its_own_trail_from_the_second_tick_on() -> None:
     world.turtles["turtle1"].command(0.2)
     colours = [drive(world, 1).colour for _ in range(70)]
     assert colours == [BARE] + [DEFAULT_PEN] * 69
-    world.clear()
+    world.cells.clear()
     assert drive(world, 1).colour == BARE
 
 
@@ -400,25 +402,25 @@ def test_a_teleported_turtle_sees_the_line_it_drew_or_with_its_pen_up_the_place_
     turtle.set_pen((9, 9, 9))
     turtle.teleport_absolute(2.0, 2.0, 0.0)
     assert drive(world, 1).colour == (9, 9, 9)
-    assert world.canvas.colour_at((START[0] + 2.0) / 2, HEIGHT - (START[1] + 2.0) / 2) == (9, 9, 9)
+    assert world.cells[cell_at((START[0] + 2.0) / 2, HEIGHT - (START[1] + 2.0) / 2)] == (9, 9, 9)
     turtle.set_pen((0, 0, 0), off=True)
     turtle.teleport_absolute(9.0, 2.0, 0.0)
     assert drive(world, 1).colour == BARE
 
 
 def test_a_fast_line_has_no_gaps() -> None:
-    canvas = Canvas()
-    canvas.draw((1.0, 1.0), (9.0, 4.0), (1, 1, 1))
-    assert all(canvas.colour_at(1.0 + 8 * part / 500, 1.0 + 3 * part / 500) != BARE for part in (0, 100, 250, 499, 500))
-    assert canvas.colour_at(5.0, 3.5) == BARE
+    cells: Cells = {}
+    draw(cells, (1.0, 1.0), (9.0, 4.0), (1, 1, 1))
+    assert all(cell_at(1.0 + 8 * part / 500, 1.0 + 3 * part / 500) in cells for part in (0, 100, 250, 499, 500))
+    assert cell_at(5.0, 3.5) not in cells
 
 
 @pytest.mark.parametrize("far", [(1e38, 5.0), (-1e38, -1e38), (5.0, 1e9), (40.0, 5.0)])
 def test_of_a_line_to_a_far_place_only_the_part_in_the_picture_is_drawn(far: tuple[float, float]) -> None:
-    canvas = Canvas()
-    canvas.draw((5.0, 5.0), far, (1, 1, 1))
-    assert canvas.colour_at(5.0, 5.0) == (1, 1, 1)
-    assert 60 < len(canvas.cells) < 200
-    canvas.clear()
-    canvas.draw((-3.0, 20.0), (-4.0, 30.0), (1, 1, 1))
-    assert not canvas.cells
+    cells: Cells = {}
+    draw(cells, (5.0, 5.0), far, (1, 1, 1))
+    assert cell_at(5.0, 5.0) in cells
+    assert 60 < len(cells) < 200
+    cells.clear()
+    draw(cells, (-3.0, 20.0), (-4.0, 30.0), (1, 1, 1))
+    assert not cells

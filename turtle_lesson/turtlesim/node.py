@@ -17,7 +17,7 @@ Where it differs from the real one:
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 import rclpy
 from geometry_msgs.msg import Twist
@@ -42,12 +42,13 @@ from turtle_lesson.turtlesim.turtle import (
     Turtle,
     TurtleError,
     TurtleWorld,
-    WallHit,
     float32,
 )
 
 BACKGROUND = {"r": ("Red", 69), "g": ("Green", 86), "b": ("Blue", 255)}
 TICKS_BETWEEN_WALL_WARNINGS = 1000 // TICK_MS + 1
+
+T = TypeVar("T")
 
 
 class TurtlesimNode(Node):
@@ -88,37 +89,29 @@ class TurtlesimNode(Node):
         for shown in self._shown.values():
             shown.publish()
 
-    def _report(self, hits: list[WallHit]) -> None:
+    def _report(self, hits: dict[str, tuple[float, float]]) -> None:
         """Warn of each turtle that has just come to a wall, or has pushed against it for another second."""
-        before = self._pushing
-        self._pushing = {hit.turtle.name: before.get(hit.turtle.name, -1) + 1 for hit in hits}
-        for hit in hits:
-            if self._pushing[hit.turtle.name] % TICKS_BETWEEN_WALL_WARNINGS == 0:
-                self.get_logger().warning(f"Oh no! I hit the wall! (Clamping from [x={hit.x:f}, y={hit.flipped_y:f}])")
+        self._pushing = {name: self._pushing.get(name, -1) + 1 for name in hits}
+        for name, (x, flipped_y) in hits.items():
+            if self._pushing[name] % TICKS_BETWEEN_WALL_WARNINGS == 0:
+                self.get_logger().warning(f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={flipped_y:f}])")
 
     def _on_spawn(self, request: Spawn.Request, response: Spawn.Response) -> Spawn.Response:
-        try:
-            turtle = self._world.spawn(request.x, request.y, request.theta, request.name)
-        except TurtleError as error:
-            self.get_logger().error(str(error))
-            response.name = ""
-        else:
+        turtle = attempt(self, self._world.spawn, request.x, request.y, request.theta, request.name)
+        if turtle is not None:
             self._show(turtle, request.x, request.y)
             response.name = turtle.name
         return response
 
     def _on_kill(self, request: Kill.Request, response: Kill.Response) -> Kill.Response:
-        try:
-            turtle = self._world.kill(request.name)
-        except TurtleError as error:
-            self.get_logger().error(str(error))
-        else:
+        turtle = attempt(self, self._world.kill, request.name)
+        if turtle is not None:
             self._shown.pop(turtle.name).close()
         return response
 
     def _on_clear(self, _request: Empty.Request, response: Empty.Response) -> Empty.Response:
         self.get_logger().info("Clearing turtlesim.")
-        self._world.clear()
+        self._world.cells.clear()
         return response
 
     def _on_reset(self, _request: Empty.Request, response: Empty.Response) -> Empty.Response:
@@ -136,6 +129,15 @@ class TurtlesimNode(Node):
         self._shown[turtle.name] = ShownTurtle(self, turtle, self._turning)
         theta = turtle.theta
         self.get_logger().info(f"Spawning turtle [{turtle.name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]")
+
+
+def attempt(node: Node, ask: Callable[..., T], *arguments: Any) -> T | None:
+    """What the world answers when it is asked for something; None, with an error in the log, if it cannot do it."""
+    try:
+        return ask(*arguments)
+    except TurtleError as error:
+        node.get_logger().error(str(error))
+        return None
 
 
 class ShownTurtle:
@@ -196,18 +198,13 @@ class ShownTurtle:
     def _on_teleport_relative(
         self, request: TeleportRelative.Request, response: TeleportRelative.Response
     ) -> TeleportRelative.Response:
-        return self._teleported(response, self._turtle.teleport_relative, request.linear, request.angular)
+        attempt(self._node, self._turtle.teleport_relative, request.linear, request.angular)
+        return response
 
     def _on_teleport_absolute(
         self, request: TeleportAbsolute.Request, response: TeleportAbsolute.Response
     ) -> TeleportAbsolute.Response:
-        return self._teleported(response, self._turtle.teleport_absolute, request.x, request.y, request.theta)
-
-    def _teleported(self, response: Any, teleport: Callable[..., None], *numbers: float) -> Any:
-        try:
-            teleport(*numbers)
-        except TurtleError as error:
-            self._node.get_logger().error(str(error))
+        attempt(self._node, self._turtle.teleport_absolute, request.x, request.y, request.theta)
         return response
 
 

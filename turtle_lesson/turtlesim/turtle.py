@@ -22,7 +22,7 @@ import re
 import struct
 from collections import deque
 from itertools import count
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 Colour: TypeAlias = tuple[int, int, int]
 """Red, green and blue, each from 0 to 255."""
@@ -46,44 +46,34 @@ def cell_at(x: float, y: float) -> int:
     return int(x * _CELLS_PER_METRE) * _ROW + int(y * _CELLS_PER_METRE)
 
 
-class Canvas:
-    """What the turtles' pens have drawn, as coarse cells, each with its last colour, for the colour sensor.
+Cells: TypeAlias = dict[int, Colour]
+"""What the turtles' pens have drawn, as coarse cells by their numbers, each with its last colour, for the colour sensor.
 
-    The real turtlesim draws into a picture of 500 by 500 pixels, 45 to the metre, and its colour sensor reads the pixel under
-    the turtle. Two facts of that picture (``turtle_frame.cpp`` of Humble) are kept here:
+The real turtlesim draws into a picture of 500 by 500 pixels, 45 to the metre, and its colour sensor reads the pixel under
+the turtle. Two facts of that picture (``turtle_frame.cpp`` of Humble) are kept here:
 
-    - it lies on top of the background and starts out transparent *white*, so where nothing was drawn the sensor says
-      (255, 255, 255), whatever the parameters ``background_r``, ``background_g`` and ``background_b`` are;
-    - a turtle sees the trail that it draws itself, from the second tick of a drive on.
+- it lies on top of the background and starts out transparent *white*, so where nothing was drawn the sensor says
+  (255, 255, 255), whatever the parameters ``background_r``, ``background_g`` and ``background_b`` are;
+- a turtle sees the trail that it draws itself, from the second tick of a drive on.
 
-    The picture itself is not kept: a square cell as wide as a standard pen (3 pixels) remembers the last colour drawn through
-    its middle. So a wide pen leaves no broader trail for the sensor than a narrow one, and the edge of a trail is off by at
-    most a pen's width. That costs one dictionary look-up a tick.
-    """
+The picture itself is not kept: a square cell as wide as a standard pen (3 pixels) remembers the last colour drawn through
+its middle. So a wide pen leaves no broader trail for the sensor than a narrow one, and the edge of a trail is off by at
+most a pen's width. That costs one dictionary look-up a tick.
+"""
 
-    def __init__(self) -> None:
-        self.cells: dict[int, Colour] = {}
 
-    def colour_at(self, x: float, y: float) -> Colour:
-        """Return the colour at the point (x, y), in metres."""
-        return self.cells.get(cell_at(x, y), BARE)
-
-    def draw(self, start: tuple[float, float], end: tuple[float, float], colour: Colour) -> None:
-        """Draw a straight line between two points, (x, y) in metres, as far as it lies in the picture."""
-        (x0, y0), (x1, y1) = start, end
-        dx, dy = x1 - x0, y1 - y0
-        begin, finish = _part_within(x0, dx, *_part_within(y0, dy, 0.0, 1.0))
-        if begin > finish:
-            return
-        # Two samples a cell leave no gap.
-        steps = int(max(abs(dx), abs(dy)) * (finish - begin) * _CELLS_PER_METRE * 2) + 1
-        for step in range(steps + 1):
-            part = begin + (finish - begin) * step / steps
-            self.cells[cell_at(x0 + dx * part, y0 + dy * part)] = colour
-
-    def clear(self) -> None:
-        """Wipe everything that was drawn."""
-        self.cells.clear()
+def draw(cells: Cells, start: tuple[float, float], end: tuple[float, float], colour: Colour) -> None:
+    """Draw a straight line between two points, (x, y) in metres, as far as it lies in the picture."""
+    (x0, y0), (x1, y1) = start, end
+    dx, dy = x1 - x0, y1 - y0
+    begin, finish = _part_within(x0, dx, *_part_within(y0, dy, 0.0, 1.0))
+    if begin > finish:
+        return
+    # Two samples a cell leave no gap.
+    steps = int(max(abs(dx), abs(dy)) * (finish - begin) * _CELLS_PER_METRE * 2) + 1
+    for step in range(steps + 1):
+        part = begin + (finish - begin) * step / steps
+        cells[cell_at(x0 + dx * part, y0 + dy * part)] = colour
 
 
 def _part_within(start: float, way: float, begin: float, finish: float) -> tuple[float, float]:
@@ -142,8 +132,6 @@ class Rotation:
         reached: whether it is there.
     """
 
-    __slots__ = ("_goal", "_start", "delta", "reached", "remaining")
-
     def __init__(self, goal: float, heading: float) -> None:
         self._goal = normalized(goal)
         self._start = heading
@@ -169,42 +157,18 @@ class Turtle:
     ``at_rest``, that the last tick has changed nothing of all these but perhaps the colour.
     """
 
-    __slots__ = (
-        "_cell",
-        "_commands",
-        "_forward",
-        "_rotation",
-        "_sideways",
-        "_stopped",
-        "_teleports",
-        "_ticks_left",
-        "angular",
-        "at_rest",
-        "colour",
-        "flipped_y",
-        "name",
-        "pen",
-        "pen_on",
-        "speed",
-        "theta",
-        "x",
-    )
-
-    at_rest: bool
-    _stopped: bool
-
     def __init__(self, name: str, x: float, flipped_y: float, theta: float) -> None:
         self.name = name
         self.x, self.flipped_y, self.theta = x, flipped_y, theta
         self.pen: Colour = DEFAULT_PEN
         self.pen_on = True
         self.colour: Colour = BARE
+        self.at_rest = False  # it may have been spawned beyond a wall
         self._cell = cell_at(x, flipped_y)
         self._commands: deque[tuple[float, float, float]] = deque(maxlen=QUEUE_DEPTH)
         self._teleports: list[tuple[bool, float, float, float]] = []
         self._rotation: Rotation | None = None
-        self._stop()
-        self._wake()  # it may have been spawned beyond a wall
+        self._drive(0.0, 0.0, 0.0, ticks=1)
 
     @property
     def y(self) -> float:
@@ -222,7 +186,7 @@ class Turtle:
                 f"angular.z={angular}: each must be a finite number; try math.isfinite before publishing"
             )
         self._commands.append((forward, sideways, angular))
-        self._wake()
+        self.at_rest = False
 
     def teleport_absolute(self, x: float, y: float, theta: float) -> None:
         """Put the turtle at (x, y), in metres, heading theta, in radians, at the next tick."""
@@ -233,21 +197,15 @@ class Turtle:
         self._teleport(True, linear, 0.0, angular)
 
     def rotate_to(self, theta: float) -> Rotation:
-        """Turn to the heading theta (rad), from the next tick on; commands do nothing until it is reached.
-
-        Raises TurtleError if it is no usable number.
-        """
-        if not abs(theta) <= LARGEST:
-            raise TurtleError(f"Turtle [{self.name}] cannot rotate to theta={theta}: it must be a finite number")
+        """Turn to the heading theta (rad, finite), from the next tick on; commands do nothing until it is reached."""
         self._rotation = Rotation(theta, self.theta)
-        self._wake()
+        self.at_rest = False
         return self._rotation
 
     def stop_rotating(self) -> None:
         """Stop turning, and stand still."""
-        if self._rotation is not None:
-            self._rotation = None
-            self._stand()
+        self._rotation = None
+        self._drive(0.0, 0.0, 0.0)
 
     def set_pen(self, colour: Colour, off: bool = False) -> None:
         """Lift the pen, or put it down with this colour."""
@@ -255,30 +213,36 @@ class Turtle:
         if not off:
             self.pen = colour
 
-    def tick(self, canvas: Canvas) -> tuple[float, float] | None:
+    def tick(self, cells: Cells) -> tuple[float, float] | None:
         """Move on by 16 ms. Returns where it would be, as (x, flipped y), had a wall not held it up."""
         if self.at_rest:
-            self.colour = canvas.cells.get(self._cell, BARE)
+            self.colour = cells.get(self._cell, BARE)
             return None
         if self._teleports:
-            self._carry_out_teleports(canvas)
-        self.colour = canvas.cells.get(self._cell, BARE)
+            self._carry_out_teleports(cells)
+        self.colour = cells.get(self._cell, BARE)
         if self._commands:
-            self._forward, self._sideways, self.angular = self._commands.popleft()
-            self.speed = math.sqrt(self._forward * self._forward + self._sideways * self._sideways)
-            self._ticks_left = COMMAND_TICKS
+            self._drive(*self._commands.popleft())
         if self._rotation is not None:
-            self._rotate(self._rotation)
-        if self._ticks_left:
-            self._ticks_left -= 1
-        elif self._stopped:
+            self._drive(0.0, 0.0, self._rotation.step(self.theta))
+            if self._rotation.reached:
+                self._rotation = None
+        left = self._ticks_left - 1
+        if left < 0:
             self.at_rest = True
             return None
-        else:
-            self._stop()
-        return self._move(canvas)
+        self._ticks_left = left
+        if left == 0:
+            self._drive(0.0, 0.0, 0.0, ticks=0)
+        return self._move(cells)
 
-    def _move(self, canvas: Canvas) -> tuple[float, float] | None:
+    def _drive(self, forward: float, sideways: float, angular: float, ticks: int = COMMAND_TICKS + 1) -> None:
+        """Set the speeds, from this tick on; the last of the `ticks` stops the turtle, which is at rest after it."""
+        self._forward, self._sideways, self.angular = forward, sideways, angular
+        self.speed = math.sqrt(forward * forward + sideways * sideways)
+        self._ticks_left = ticks
+
+    def _move(self, cells: Cells) -> tuple[float, float] | None:
         theta = self.theta + self.angular * TICK
         if not -3.14 < theta < 3.14:  # in between, the formula changes nothing
             theta -= TWO_PI * math.floor((theta + PI) / TWO_PI)
@@ -295,42 +259,20 @@ class Turtle:
             self._cell = cell_at(x, y)
             if self.pen_on:
                 if self.speed * TICK < CELL:  # the usual case is worth a short cut: no cell lies in between
-                    canvas.cells[self._cell] = self.pen
+                    cells[self._cell] = self.pen
                 else:
-                    canvas.draw((self.x, self.flipped_y), (x, y), self.pen)
+                    draw(cells, (self.x, self.flipped_y), (x, y), self.pen)
             self.x, self.flipped_y = x, y
         return wall
-
-    def _rotate(self, rotation: Rotation) -> None:
-        speed = rotation.step(self.theta)
-        self._stand()
-        if rotation.reached:
-            self._rotation = None
-        else:
-            self.angular = speed
-            self._ticks_left = COMMAND_TICKS
-
-    def _stand(self) -> None:
-        """Stand still from this tick on, which is still a tick that changes something."""
-        self._stop()
-        self._ticks_left = 1
-        self._stopped = False
-
-    def _stop(self) -> None:
-        self._forward = self._sideways = self.speed = self.angular = 0.0
-        self._ticks_left = 0
-        self._stopped = True
-
-    def _wake(self) -> None:
-        self._stopped = self.at_rest = False
 
     def _teleport(self, relative: bool, x: float, y: float, theta: float) -> None:
         if not (abs(x) <= LARGEST and abs(y) <= LARGEST and abs(theta) <= LARGEST):
             raise TurtleError(f"Turtle [{self.name}] stays where it is: each number of a teleport must be finite")
         self._teleports.append((relative, x, y, theta))
-        self._wake()
+        self._ticks_left = self._ticks_left or 1
+        self.at_rest = False
 
-    def _carry_out_teleports(self, canvas: Canvas) -> None:
+    def _carry_out_teleports(self, cells: Cells) -> None:
         for relative, x, y, theta in self._teleports:
             start = (self.x, self.flipped_y)
             if relative:
@@ -340,7 +282,7 @@ class Turtle:
             else:
                 self.x, self.flipped_y, self.theta = x, max(0.0, HEIGHT - y), theta
             if self.pen_on:
-                canvas.draw(start, (self.x, self.flipped_y), self.pen)
+                draw(cells, start, (self.x, self.flipped_y), self.pen)
         self._teleports.clear()
         self._cell = cell_at(self.x, self.flipped_y)
 
@@ -351,31 +293,18 @@ class Turtle:
 _NAME = re.compile(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
-class WallHit(NamedTuple):
-    """A turtle that a wall held up in this tick, and where it would have been (m; y flipped: from the upper wall)."""
-
-    turtle: Turtle
-    x: float
-    flipped_y: float
-
-
 class TurtleWorld:
-    """Turtles in the order in which they were spawned, on one canvas, in a world of 11.088889 m by 11.088889 m."""
+    """Turtles in the order in which they were spawned, in a world of 11.088889 m by 11.088889 m."""
 
     def __init__(self) -> None:
         self.turtles: dict[str, Turtle] = {}
-        self.canvas = Canvas()
-        self._last_number = 0
-        self.spawn_in_the_middle()
+        self.cells: Cells = {}
+        self.reset()
 
-    def tick(self) -> list[WallHit]:
-        """Move all turtles on by 16 ms. Returns those that hit a wall."""
-        canvas = self.canvas
-        return [WallHit(turtle, *at) for turtle in self.turtles.values() if (at := turtle.tick(canvas)) is not None]
-
-    def spawn_in_the_middle(self) -> Turtle:
-        """Add a turtle in the middle of the world, facing +x, with the next automatic name."""
-        return self.spawn(WIDTH / 2, HEIGHT / 2, 0.0)
+    def tick(self) -> dict[str, tuple[float, float]]:
+        """Move all turtles on by 16 ms. Returns those that a wall held up, and where they would have been: (x, flipped y)."""
+        cells = self.cells
+        return {turtle.name: there for turtle in self.turtles.values() if (there := turtle.tick(cells)) is not None}
 
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
         """Add a turtle at (x, y) in metres, heading theta in radians; a place beyond a wall is moved to the wall.
@@ -409,13 +338,9 @@ class TurtleWorld:
             raise TurtleError(f"Tried to kill turtle [{name}], which does not exist")
         return self.turtles.pop(name)
 
-    def clear(self) -> None:
-        """Wipe what the pens have drawn; the turtles stay where they are."""
-        self.canvas.clear()
-
     def reset(self) -> Turtle:
-        """Begin anew with one turtle, turtle1, in the middle; returns it."""
+        """Begin anew with one turtle, turtle1, in the middle and facing +x; returns it."""
         self.turtles.clear()
-        self.canvas.clear()
+        self.cells.clear()
         self._last_number = 0
-        return self.spawn_in_the_middle()
+        return self.spawn(WIDTH / 2, HEIGHT / 2, 0.0)
