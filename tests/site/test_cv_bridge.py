@@ -93,6 +93,8 @@ def test_what_has_no_meaning_is_refused(source: str, target: str, text: str) -> 
 def test_what_is_no_image_of_the_encoding_is_refused() -> None:
     with pytest.raises(CvBridgeError, match="encoding specified as mono8, but image has incompatible type 8UC3"):
         BRIDGE.cv2_to_imgmsg(RGB, "mono8")
+    with pytest.raises(CvBridgeError, match="OpenCV has no images of the type bool: convert it"):
+        BRIDGE.cv2_to_imgmsg(RGB > 1)
     with pytest.raises(TypeError, match="Your input type is not a numpy array"):
         BRIDGE.cv2_to_imgmsg([[1]])
 

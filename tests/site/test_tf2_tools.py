@@ -74,11 +74,11 @@ def test_xacro_runs_where_it_is_installed(fresh_terminal: Terminal, monkeypatch:
 def test_a_static_transform_by_flags_and_its_parameters(shop: Workshop) -> None:
     node = "--ros-args -r __node:=lidar_frame"
     printed = shop.say(
-        f"{STATIC} --x 1 --z -0.5 --yaw 3.1415927 --frame-id world --child-frame-id lidar {node}", seconds=1
+        f"{STATIC} --x 1 --y -1e-3 --z -0.5 --yaw 3.1415927 --frame-id world --child-frame-id lidar {node}", seconds=1
     )
     assert printed == [
         "0.0 lidar_frame: Spinning until stopped - publishing transform",
-        "translation: ('1.000000', '0.000000', '-0.500000')",
+        "translation: ('1.000000', '-0.001000', '-0.500000')",
         "rotation: ('0.000000', '0.000000', '1.000000', '-0.000000')",
         "from 'world' to 'lidar'",
     ]

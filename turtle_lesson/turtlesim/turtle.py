@@ -213,6 +213,12 @@ class Turtle:
         if not off:
             self.pen = colour
 
+    def _drive(self, forward: float, sideways: float, angular: float, ticks: int = COMMAND_TICKS + 1) -> None:
+        """Set the speeds, from this tick on; the last of the `ticks` stops the turtle, which is at rest after it."""
+        self._forward, self._sideways, self.angular = forward, sideways, angular
+        self.speed = math.sqrt(forward * forward + sideways * sideways)
+        self._ticks_left = ticks
+
     def tick(self, cells: Cells) -> tuple[float, float] | None:
         """Move on by 16 ms. Returns where it would be, as (x, flipped y), had a wall not held it up."""
         if self.at_rest:
@@ -235,12 +241,6 @@ class Turtle:
         if left == 0:
             self._drive(0.0, 0.0, 0.0, ticks=0)
         return self._move(cells)
-
-    def _drive(self, forward: float, sideways: float, angular: float, ticks: int = COMMAND_TICKS + 1) -> None:
-        """Set the speeds, from this tick on; the last of the `ticks` stops the turtle, which is at rest after it."""
-        self._forward, self._sideways, self.angular = forward, sideways, angular
-        self.speed = math.sqrt(forward * forward + sideways * sideways)
-        self._ticks_left = ticks
 
     def _move(self, cells: Cells) -> tuple[float, float] | None:
         theta = self.theta + self.angular * TICK
@@ -299,6 +299,7 @@ class TurtleWorld:
     def __init__(self) -> None:
         self.turtles: dict[str, Turtle] = {}
         self.cells: Cells = {}
+        self._last_number = 0
         self.reset()
 
     def tick(self) -> dict[str, tuple[float, float]]:

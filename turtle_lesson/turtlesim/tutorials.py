@@ -8,14 +8,11 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable
-from contextlib import suppress
 from typing import Any
 
 import rclpy
 from geometry_msgs.msg import Twist
 from rclpy.action import ActionClient
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_srvs.srv import Empty
 from turtlesim.action import RotateAbsolute
@@ -23,6 +20,7 @@ from turtlesim.msg import Pose
 
 from ..ros.runtime.world import current_process
 from ..ros.stdlib.terminals import ProgramInput
+from ..ros.tools import spin
 
 PERIOD = 0.016
 SIDE = 2.0
@@ -98,18 +96,12 @@ class Mimic(Node):
 
 def draw_square() -> None:
     """Run until Ctrl-C."""
-    _run(DrawSquare)
+    spin(DrawSquare)
 
 
 def mimic() -> None:
     """Run until Ctrl-C."""
-    _run(Mimic)
-
-
-def _run(make_node: Callable[[], Node]) -> None:
-    rclpy.init()
-    with suppress(KeyboardInterrupt, ExternalShutdownException):
-        rclpy.spin(make_node())
+    spin(Mimic)
 
 
 HELP = """\

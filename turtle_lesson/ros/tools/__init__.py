@@ -59,10 +59,11 @@ def program(module: str, function: str = "main", *arguments: object) -> Callable
 
 
 def spin(make: Callable[[], Node]) -> int:
-    """Make a program's node and spin it until Ctrl-C; the exit code."""
+    """Initialize rclpy, make a program's node, and spin it until Ctrl-C; the exit code."""
     import rclpy
     from rclpy.executors import ExternalShutdownException
 
     with suppress(KeyboardInterrupt, ExternalShutdownException):
+        rclpy.init()
         rclpy.spin(make())
     return 0

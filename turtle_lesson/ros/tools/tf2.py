@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import math
 import random
+import re
 import string
 import sys
 import time
@@ -93,7 +94,6 @@ def tf2_echo() -> int:
     args = parser.parse_args(remove_ros_args(sys.argv)[1:])
     if not 0.0 < args.echo_rate <= 1000.0:
         parser.error(f"the rate must be more than 0 and at most 1000 Hz, got {args.echo_rate:g}")
-    rclpy.init()
     return spin(lambda: Echo(args.source_frame, args.target_frame, args.echo_rate))
 
 
@@ -167,7 +167,8 @@ def read_words(words: list[str]) -> dict[str, object]:
     if len(words) in OLD_STYLE and not any(word.startswith("--") for word in words):
         RcutilsLogger("").warning("Old-style arguments are deprecated; see --help for new-style arguments")
         words = [f"--{name}={word}" for name, word in zip(OLD_STYLE[len(words)], words, strict=True)]
-    args = parser.parse_args(words)
+    # A space before it keeps argparse from taking -1e-3 for a flag.
+    args = parser.parse_args([f" {word}" if re.match(r"-[\d.]", word) else word for word in words])
     angles, turn = ([getattr(args, name) for name in names] for names in (ANGLES, TURN))
     if any(angle is not None for angle in angles) and any(part is not None for part in turn):
         parser.error("Cannot specify both quaternion and Euler rotations")
@@ -217,5 +218,4 @@ class StaticPublisher(Node):
 def static_transform_publisher() -> int:
     """`static_transform_publisher --x 1 --frame-id A --child-frame-id B`, and the older way, until Ctrl-C."""
     values = read_words(remove_ros_args(sys.argv)[1:])
-    rclpy.init()
     return spin(lambda: StaticPublisher(values))

@@ -58,7 +58,9 @@ class CvBridge:
         """
         _check_array(cvim)
         height, width, *rest = cvim.shape
-        depth = next(depth for depth, name in TYPES.items() if name == cvim.dtype.name)
+        depth = next((depth for depth, name in TYPES.items() if name == cvim.dtype.name), None)
+        if depth is None:
+            raise CvBridgeError(f"OpenCV has no images of the type {cvim.dtype}: convert it, as .astype(np.uint8) does")
         kind = f"{depth}C{rest[0] if rest else 1}"
         if encoding != "passthrough" and _layout(encoding)[:2] != _layout(kind)[:2]:
             raise CvBridgeError(f"encoding specified as {encoding}, but image has incompatible type {kind}")

@@ -35,16 +35,18 @@ class Talker(Node):
 
 def talker(first: int, line: str) -> None:
     """`talker` of both packages: publishes "Hello World" once a second, until Ctrl-C."""
-    rclpy.init()
     spin(lambda: Talker(first, line))
 
 
 def listener(qos: QoSProfile | int = 10) -> None:
     """`listener` of both packages: logs what is published on `chatter`, until Ctrl-C."""
-    rclpy.init()
-    node = rclpy.create_node("listener")
-    node.create_subscription(String, "chatter", lambda said: node.get_logger().info(f"I heard: [{said.data}]"), qos)
-    spin(lambda: node)
+
+    def make() -> Node:
+        node = rclpy.create_node("listener")
+        node.create_subscription(String, "chatter", lambda said: node.get_logger().info(f"I heard: [{said.data}]"), qos)
+        return node
+
+    spin(make)
 
 
 def listener_best_effort() -> None:
@@ -67,8 +69,7 @@ class Adder(Node):
 
 def add_two_ints_server() -> None:
     """`add_two_ints_server`: answers until Ctrl-C."""
-    rclpy.init()
-    spin(lambda: Adder())
+    spin(Adder)
 
 
 def add_two_ints_client() -> None:
