@@ -24,11 +24,11 @@ from ._frames import (
     LookupException,
     TimeCache,
     TransformException,
-    Way,
     combined,
     frames_as_string,
     latest_common_time,
     shown_time,
+    transform_between,
 )
 from ._rotation import canonical
 
@@ -111,12 +111,12 @@ class BufferCore:
     def _look_up(self, question: Question) -> TransformStamped:
         for name, frame in question.frames.items():
             check_frame(self._frames, frame, f"lookupTransform argument {name}_frame")
-        ways = [Way(self._frames, *way) for way in reversed(question.ways)]
-        turn, place = reduce(combined, [way.transform() for way in reversed(ways)])
+        ways = [transform_between(self._frames, *way) for way in reversed(question.ways)]
+        turn, place = reduce(combined, [transform for transform, _ in reversed(ways)])
         x, y, z, w = canonical(turn)
         message = TransformStamped(child_frame_id=question.ways[-1][1])
         message.header.frame_id = question.ways[0][0]
-        message.header.stamp = Time(nanoseconds=ways[-1].time).to_msg()
+        message.header.stamp = Time(nanoseconds=ways[-1][1]).to_msg()
         translation = Vector3(x=place[0], y=place[1], z=place[2])
         message.transform = Transform(translation=translation, rotation=Quaternion(x=x, y=y, z=z, w=w))
         return message
@@ -129,7 +129,7 @@ class BufferCore:
                 return False, f'Invalid frame ID "{frame}" passed to canTransform argument {name}_frame - {wrong}'
         try:
             for way in question.ways:
-                Way(self._frames, *way)
+                transform_between(self._frames, *way)
         except TransformException as error:
             return False, str(error)
         return True, ""
@@ -153,17 +153,17 @@ class BufferCore:
             return "[]"
         lines = []
         for name, cache in self._frames.items():
-            if cache is None or cache.latest_parent() is None:
+            if not cache or not cache.kept:
                 continue
-            newest, oldest = cache.latest_stamp(), cache.oldest_stamp()
+            oldest, latest = cache.kept[0].stamp, cache.kept[-1].stamp
             lines += [
                 f"{name}: ",
-                f"  parent: '{cache.latest_parent()}'",
+                f"  parent: '{cache.kept[-1].parent}'",
                 f"  broadcaster: '{self._authorities.get(name, 'no recorded authority')}'",
-                f"  rate: {len(cache) * 1e9 / max(newest - oldest, SHORTEST):.3f}",
-                f"  most_recent_transform: {shown_time(newest)}",
+                f"  rate: {len(cache.kept) * 1e9 / max(latest - oldest, SHORTEST):.3f}",
+                f"  most_recent_transform: {shown_time(latest)}",
                 f"  oldest_transform: {shown_time(oldest)}",
-                f"  buffer_length: {(newest - oldest) / 1e9:.3f}",
+                f"  buffer_length: {(latest - oldest) / 1e9:.3f}",
             ]
         return "".join(f"{line}\n" for line in lines)
 
@@ -225,23 +225,23 @@ def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:
     if parent and child and parent != child and length_is_one and not any(map(math.isnan, where)):
         return child, Kept(nanoseconds(transform.header.stamp), parent, how, where)
     by = f'from authority "{authority}"'
-    found = []
-    if child == parent:
-        same = f'with frame_id and  child_frame_id "{child}" because they are the same'
-        found.append(f"TF_SELF_TRANSFORM: Ignoring transform {by} {same}")
-    if not child:
-        found.append(f"TF_NO_CHILD_FRAME_ID: Ignoring transform {by} because child_frame_id not set ")
-    if not parent:
-        found.append(f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set')
-    quaternion = f"({' '.join(f'{each:f}' for each in how)})"
-    if any(map(math.isnan, (*where, *how))):
-        values = f"because of a nan value in the transform ({' '.join(f'{each:f}' for each in where)}) {quaternion}"
-        found.append(f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" {by} {values}')
-    if not length_is_one:
-        values = f"because of an invalid quaternion in the transform {quaternion}"
-        found.append(f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" {by} {values}')
-    for refusal in found:
-        say("Error:  ", refusal)
+    same = f'with frame_id and  child_frame_id "{child}" because they are the same'
+    values, quaternion = (f"({' '.join(f'{each:f}' for each in numbers)})" for numbers in (where, how))
+    of_child = f'Ignoring transform for child_frame_id "{child}" {by}'
+    found = {
+        f"TF_SELF_TRANSFORM: Ignoring transform {by} {same}": child == parent,
+        f"TF_NO_CHILD_FRAME_ID: Ignoring transform {by} because child_frame_id not set ": not child,
+        f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set': not parent,
+        f"TF_NAN_INPUT: {of_child} because of a nan value in the transform {values} {quaternion}": any(
+            map(math.isnan, (*where, *how))
+        ),
+        f"TF_DENORMALIZED_QUATERNION: {of_child} because of an invalid quaternion in the transform {quaternion}": (
+            not length_is_one
+        ),
+    }
+    for refusal, is_so in found.items():
+        if is_so:
+            say("Error:  ", refusal)
     return None
 
 

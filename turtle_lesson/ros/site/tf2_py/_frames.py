@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
+from operator import attrgetter
 from typing import NamedTuple
 
 from ._rotation import NO_TURN, ORIGIN, Quaternion, Vector, add, inverse, lerp, multiply, rotate, slerp
@@ -51,6 +52,9 @@ class Kept(NamedTuple):
     place: Vector
 
 
+_stamp_of = attrgetter("stamp")
+
+
 class Unreachable(Exception):
     """No transform at the time that was asked for; the text says why, and may be empty."""
 
@@ -68,76 +72,55 @@ class TimeCache:
 
     def __init__(self, span: int | None) -> None:
         self.span = span
-        self._stamps: list[int] = []
-        self._kept: list[Kept] = []
-
-    def __len__(self) -> int:
-        return len(self._kept)
+        self.kept: list[Kept] = []
 
     def insert(self, new: Kept) -> bool:
         """Keep one more; False if it is older than what is kept."""
         if self.span is None:
-            self._stamps, self._kept = [0], [new._replace(stamp=0)]
+            self.kept = [new._replace(stamp=0)]
             return True
         oldest = self.latest_stamp() - self.span
-        if old := bisect_left(self._stamps, oldest):
-            del self._stamps[:old], self._kept[:old]
-        if self._kept and new.stamp < oldest:
+        del self.kept[: bisect_left(self.kept, oldest, key=_stamp_of)]
+        if self.kept and new.stamp < oldest:
             return False
-        end = bisect_right(self._stamps, new.stamp)
-        if new not in self._kept[bisect_left(self._stamps, new.stamp) : end]:
-            self._stamps.insert(end, new.stamp)
-            self._kept.insert(end, new)
+        end = bisect_right(self.kept, new.stamp, key=_stamp_of)
+        if new not in self.kept[bisect_left(self.kept, new.stamp, key=_stamp_of) : end]:
+            self.kept.insert(end, new)
         return True
 
     def clear(self) -> None:
         """Forget everything, but of a frame that never moves."""
         if self.span is not None:
-            self._stamps.clear()
-            self._kept.clear()
+            self.kept.clear()
 
     def latest_stamp(self) -> int:
         """The time of the latest; 0 if there is none."""
-        return self._stamps[-1] if self._stamps else 0
-
-    def oldest_stamp(self) -> int:
-        """The time of the oldest; 0 if there is none."""
-        return self._stamps[0] if self._stamps else 0
-
-    def latest_parent(self) -> str | None:
-        """The parent in the latest; None if there is none."""
-        return self._kept[-1].parent if self._kept else None
+        return self.kept[-1].stamp if self.kept else 0
 
     def at(self, time: int) -> Kept:
         """The transform at a time, between two kept ones if need be. Raises Unreachable."""
-        if not self._kept:
+        if not self.kept:
             raise Unreachable("")
-        if self.span is None or time in (0, self._stamps[-1]):
-            return self._kept[-1]
-        if time == self._stamps[0]:
-            return self._kept[0]
-        self._check_reaches(time)
-        after = bisect_right(self._stamps, time)
-        one = self._kept[after - 1]
-        if one.stamp == time:
-            return one
-        two = self._kept[after]
-        if one.parent != two.parent:
+        oldest, latest = self.kept[0], self.kept[-1]
+        if self.span is None or time in (0, latest.stamp):
+            return latest
+        wanted, why_not = shown_time(time), ""
+        if oldest is latest:
+            why_not = f"at time {wanted}, but only time {shown_time(latest.stamp)} is in the buffer"
+        elif time > latest.stamp:
+            known = f"but the latest data is at time {shown_time(latest.stamp)}"
+            why_not = f"into the future.  Requested time {wanted} {known}"
+        elif time < oldest.stamp:
+            known = f"but the earliest data is at time {shown_time(oldest.stamp)}"
+            why_not = f"into the past.  Requested time {wanted} {known}"
+        if why_not:
+            raise Unreachable(f"Lookup would require extrapolation {why_not}")
+        after = bisect_right(self.kept, time, key=_stamp_of)
+        one, two = self.kept[after - 1], self.kept[after]
+        if one.stamp == time or one.parent != two.parent:
             return one
         share = (time - one.stamp) / (two.stamp - one.stamp)
         return Kept(one.stamp, one.parent, slerp(one.turn, two.turn, share), lerp(one.place, two.place, share))
-
-    def _check_reaches(self, time: int) -> None:
-        wanted, oldest, latest = shown_time(time), self._stamps[0], self._stamps[-1]
-        if len(self._kept) == 1:
-            only = f"but only time {shown_time(latest)} is in the buffer"
-            raise Unreachable(f"Lookup would require extrapolation at time {wanted}, {only}")
-        if time > latest:
-            known = f"Requested time {wanted} but the latest data is at time {shown_time(latest)}"
-            raise Unreachable(f"Lookup would require extrapolation into the future.  {known}")
-        if time < oldest:
-            known = f"Requested time {wanted} but the earliest data is at time {shown_time(oldest)}"
-            raise Unreachable(f"Lookup would require extrapolation into the past.  {known}")
 
 
 Frames = Mapping[str, TimeCache | None]
@@ -153,7 +136,7 @@ DEEPEST = 1000
 def frames_as_string(frames: Frames) -> str:
     """A sentence for each frame that has a parent, or had one."""
     lines = (
-        f"Frame {name} exists with parent {cache.latest_parent() or 'NO_PARENT'}.\n"
+        f"Frame {name} exists with parent {cache.kept[-1].parent if cache.kept else 'NO_PARENT'}.\n"
         for name, cache in frames.items()
         if cache is not None
     )
@@ -200,36 +183,23 @@ def _climb(frames: Frames, frame: str, goals: Sequence[str], time: int) -> tuple
     raise LookupException(f"The tf tree is invalid because it contains a loop.\n{frames_as_string(frames)}\n")
 
 
-class Way:
-    """The way from a source frame up, and down again to a target frame, at a time (ns; 0 for the latest common one).
+def transform_between(frames: Frames, target: str, source: str, time: int) -> tuple[Transform, int]:
+    """Where the source frame is, seen from the target frame, at a time (ns; 0 for the latest common one), and this time.
 
     Raises LookupException, ConnectivityException, ExtrapolationException.
     """
-
-    def __init__(self, frames: Frames, target: str, source: str, time: int) -> None:
-        self.up: list[Step] = []
-        self.down: list[Step] = []
-        self.time = time or latest_common_time(frames, target, source)
-        if target == source:
-            return
-        self.up, top, why_not = _climb(frames, source, [target], self.time)
-        if top == target:
-            return
-        self.down, bottom, problem = _climb(frames, target, [top, source], self.time)
-        if bottom == top:
-            return
-        if bottom == source:
-            self.up = []
-        elif problem := problem or why_not:
+    time = time or latest_common_time(frames, target, source)
+    up, top, why_not = _climb(frames, source, [target], time)
+    down, bottom, problem = _climb(frames, target, [top, source], time)
+    if bottom == source:
+        up = []
+    elif bottom != top:
+        if problem := problem or why_not:
             raise ExtrapolationException(
                 f"{problem}, when looking up transform from frame [{source}] to frame [{target}]"
             )
-        else:
-            raise _unconnected(target, source)
-
-    def transform(self) -> Transform:
-        """Where the source frame is, seen from the target frame."""
-        return combined(inverted(_summed(self.down)), _summed(self.up))
+        raise _unconnected(target, source)
+    return combined(inverted(_summed(down)), _summed(up)), time
 
 
 def _summed(steps: list[Step]) -> Transform:

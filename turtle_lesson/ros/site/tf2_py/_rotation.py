@@ -49,12 +49,8 @@ def add(left: Vector, right: Vector) -> Vector:
 
 def lerp(one: Vector, two: Vector, share: float) -> Vector:
     """The point at a share (0 to 1) of the way between two."""
-    rest = 1.0 - share
-    return (
-        rest * one[0] + share * two[0],
-        rest * one[1] + share * two[1],
-        rest * one[2] + share * two[2],
-    )
+    x, y, z = ((1.0 - share) * a + share * b for a, b in zip(one, two, strict=True))
+    return x, y, z
 
 
 def slerp(one: Quaternion, two: Quaternion, share: float) -> Quaternion:
@@ -65,13 +61,9 @@ def slerp(one: Quaternion, two: Quaternion, share: float) -> Quaternion:
     angle = math.acos(min(1.0, likeness))
     if angle == 0.0:
         return one
-    a, b = math.sin((1.0 - share) * angle) / math.sin(angle), math.sin(share * angle) / math.sin(angle)
-    return (
-        a * one[0] + b * two[0],
-        a * one[1] + b * two[1],
-        a * one[2] + b * two[2],
-        a * one[3] + b * two[3],
-    )
+    near, far = math.sin((1.0 - share) * angle) / math.sin(angle), math.sin(share * angle) / math.sin(angle)
+    x, y, z, w = (near * a + far * b for a, b in zip(one, two, strict=True))
+    return x, y, z, w
 
 
 def matrix_of(turn: Quaternion) -> Matrix:
