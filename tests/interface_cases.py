@@ -5,11 +5,10 @@ from pathlib import Path
 
 from hypothesis import strategies as st
 
-from turtle_lesson.ros.idl.checks import FLOAT_BOUNDS
 from turtle_lesson.ros.idl.definition import parse
 from turtle_lesson.ros.idl.generator import make_module
 from turtle_lesson.ros.idl.model import InvalidDefinition
-from turtle_lesson.ros.idl.names import integer_bounds
+from turtle_lesson.ros.idl.names import FLOATS, bounds
 from turtle_lesson.ros.idl.registry import Registry
 
 DATA = Path(__file__).with_name("data")
@@ -96,9 +95,8 @@ def values_of(type_, get=built_in.get):
 def _elements(type_, get):
     if not type_.is_primitive:
         return messages(get(f"{type_.package}/{type_.folder}/{type_.base}"), get)
-    if type_.base in FLOAT_BOUNDS:
-        bound = FLOAT_BOUNDS[type_.base]
-        return st.floats(-bound, bound) | st.sampled_from([float("inf"), float("-inf")])
+    if type_.base in FLOATS:
+        return st.floats(*bounds(type_.base)) | st.sampled_from([float("inf"), float("-inf")])
     if type_.base in ("string", "wstring"):
         letters = st.characters(exclude_categories=["Cs"], exclude_characters="\0")
         return st.text(letters, max_size=type_.string_bound or 12)
@@ -106,7 +104,7 @@ def _elements(type_, get):
         return st.booleans()
     if type_.base == "byte":
         return st.binary(min_size=1, max_size=1)
-    return st.integers(*integer_bounds(type_.base))
+    return st.integers(*bounds(type_.base))
 
 
 def messages(kind, get=built_in.get):

@@ -26,7 +26,7 @@ from turtle_lesson.lab.widgets.message_fields import (
     kinds_of,
     read_kind,
 )
-from turtle_lesson.ros.idl.names import integer_bounds, is_hidden
+from turtle_lesson.ros.idl.names import bounds, is_hidden
 
 
 def group(type_name: str) -> Group:
@@ -72,8 +72,8 @@ def test_kinds_are_read_as_ros_writes_them(text: str, kind: Kind, written: str) 
 
 
 def test_limits_of_whole_numbers() -> None:
-    assert [integer_bounds(each) for each in ("int8", "uint16", "octet")] == [(-128, 127), (0, 65535), (0, 255)]
-    assert integer_bounds("int64") == (-(2**63), 2**63 - 1)
+    assert [bounds(each) for each in ("int8", "uint16", "octet")] == [(-128, 127), (0, 65535), (0, 255)]
+    assert bounds("int64") == (-(2**63), 2**63 - 1)
 
 
 def test_constants_and_empty_messages() -> None:

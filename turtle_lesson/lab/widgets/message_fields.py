@@ -14,8 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...ros.idl.checks import FLOAT_BOUNDS
-from ...ros.idl.names import integer_bounds
+from ...ros.idl.names import bounds
 from ..recorder import find_class
 from ..words import same, shortened
 
@@ -100,10 +99,10 @@ def read_number(text: str, base: str) -> float:
             raise ValueError(f"{wanted} is missing") from None
         why = ": write a point, not a comma" if "," in typed else ""
         raise ValueError(f'{wanted} is wanted, got "{shortened(typed, 30)}"{why}') from None
-    if base == "float" and math.isfinite(value) and abs(value) > FLOAT_BOUNDS["float32"]:
+    if base == "float" and math.isfinite(value) and abs(value) > bounds("float32")[1]:
         raise ValueError("a float32 goes up to 3.4e38")
     if not is_float:
-        low, high = integer_bounds(base)
+        low, high = bounds(base)
         if not low <= value <= high:
             raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
@@ -236,7 +235,7 @@ class Single(Part):
         base = self.kind.base
         hint = f"at most {self.kind.longest} characters" if self.kind.longest else ""
         if base in WHOLE:
-            hint = "from {} to {}".format(*integer_bounds(base)).replace("-", "−")
+            hint = "from {} to {}".format(*bounds(base)).replace("-", "−")
         control = {"boolean": "checkbox", "string": "text", "wstring": "text"}.get(base, "number")
         options = [[name, str(value)] for name, value in self.constants.items()]
         return {**super().state(), "control": control, "help": hint, "options": options}

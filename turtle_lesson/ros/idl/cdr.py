@@ -183,11 +183,11 @@ def _array(type_: FieldType, element_class: type | None) -> Codec:
     """How an array or sequence is written and read."""
     put_length, get_length = _number("I")
     put, get = _single(type_, element_class)
-    code = TYPE_CODES.get(type_.base) if type_.is_primitive else None
+    code, lengths = TYPE_CODES.get(type_.base), type_.lengths
     size = array(code or "b").itemsize
 
     def check(length: int) -> None:
-        if type_.size is not None and (length != type_.size if type_.is_fixed else length > type_.size):
+        if length not in lengths:
             raise ValueError(f"{length} elements in {type_}")
 
     def write(body: bytearray, values: Any) -> None:

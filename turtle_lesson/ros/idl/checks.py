@@ -13,21 +13,20 @@ from __future__ import annotations
 
 import os
 from array import array
-from collections import UserList, UserString
-from collections.abc import Callable, Collection, Sequence, Set
-from math import isinf
+from collections import UserString
+from collections.abc import Callable, Sequence, Set
+from math import isfinite
 from struct import Struct
 from typing import Any
 
-from .model import FieldType
-from .names import integer_bounds
+from .model import FieldType, Plain
+from .names import FLOATS, bounds
 
 Check = Callable[[Any], Any]
 
 when_assigned = True
 """Whether values are checked when they are assigned; a world sets it when it opens."""
 
-FLOAT_BOUNDS = {"float32": 3.402823466e38, "float64": 1.7976931348623157e308}
 FLOAT_WORDS = {"float32": "float", "float64": "double"}
 TYPE_CODES = {
     "float32": "f", "float64": "d", "int8": "b", "uint8": "B", "char": "B", "int16": "h", "uint16": "H", "int32": "i",
@@ -70,7 +69,7 @@ def sendable(message: Any) -> Any:
     new = type(message)._FRESH()
     for member, kind in zip(type(message)._DEFINITION.fields, type(message)._KINDS, strict=True):
         value = getattr(message, f"_{member.name}")
-        if not member.type.is_array and member.type.base in FLOAT_BOUNDS and isinstance(value, int):
+        if not member.type.is_array and member.type.base in FLOATS and isinstance(value, int):
             value = float(value)
         try:
             value = kind.objects[kind.check].__wrapped__(value)
@@ -93,75 +92,41 @@ def shown(value: object) -> str:
     return f"{text if len(text) <= 40 else text[:37] + '...'} ({type(value).__name__})"
 
 
-def float_check(name: str, base: str) -> Check:
-    """Check of a float32 or float64 field; what is stored is a plain float."""
-    bound = FLOAT_BOUNDS[base]
-
-    def check(value: Any) -> float:
-        if not isinstance(value, float):
-            note = f"Got {shown(value)}; write a number with a point such as 1.0, or float(...)"
-            raise refusal(f"The '{name}' field must be of type 'float'", note)
-        if abs(value) > bound and not isinf(value):
-            raise refusal(f"The '{name}' field must be a {FLOAT_WORDS[base]} in [{-bound}, {bound}]", f"Got {value!r}")
-        return float(value)
-
-    return check
+ZEROS: dict[str, Plain | bytes] = {"bool": False, "byte": b"\x00", "string": "", "wstring": ""}
 
 
-def integer_check(name: str, base: str) -> Check:
-    """Check of an integer field."""
-    low, high = integer_bounds(base)
-    article = "an integer" if low else "an unsigned integer"
-
-    def check(value: Any) -> int:
-        if not isinstance(value, int):
-            note = f"Got {shown(value)}; int(...) or round(...) makes a whole number"
-            raise refusal(f"The '{name}' field must be of type 'int'", note)
-        if not low <= value <= high:
-            raise refusal(f"The '{name}' field must be {article} in [{low}, {high}]", f"Got {value!r}")
-        return value
-
-    return check
+def zero(base: str) -> Plain | bytes:
+    """What a field of a primitive type holds where the definition gives no default."""
+    return ZEROS.get(base, 0.0 if base in FLOATS else 0)
 
 
-def bool_check(name: str) -> Check:
-    """Check of a bool field."""
-    return _as_given(bool, f"The '{name}' field must be of type 'bool'", "write True or False")
+_HINTS = {
+    bool: "write True or False",
+    bytes: "write b'\\x01' or bytes([1])",
+    float: "write a number with a point such as 1.0, or float(...)",
+    int: "int(...) or round(...) makes a whole number",
+    str: "str(...) makes a text",
+}
 
 
-def _as_given(kind: type, text: str, hint: str) -> Check:
-    """Check of a value that is stored as it is, and has to be of a kind."""
+def scalar_check(name: str, type_: FieldType) -> Check:
+    """Check of a field with one primitive value; a float or a byte is stored as a plain one."""
+    kind = type(zero(type_.base))
+    is_value, made_plain = _value_test(type_, kind), kind in (float, bytes)
 
     def check(value: Any) -> Any:
-        if not isinstance(value, kind):
-            raise refusal(text, f"Got {shown(value)}; {hint}")
-        return value
-
-    return check
-
-
-def byte_check(name: str) -> Check:
-    """Check of a byte field: bytes of length 1."""
-
-    def check(value: Any) -> bytes:
-        if not (isinstance(value, bytes | bytearray) and len(value) == 1):
-            text = f"The '{name}' field must be of type 'bytes' or 'ByteString' with length 1"
-            raise refusal(text, f"Got {shown(value)}; write b'\\x01' or bytes([1])")
-        return bytes(value)
-
-    return check
-
-
-def string_check(name: str, bound: int | None) -> Check:
-    """Check of a string field, bounded or not."""
-    if bound is None:
-        return _as_given(str, f"The '{name}' field must be of type 'str'", "str(...) makes a text")
-
-    def check(value: Any) -> str:
-        if not (isinstance(value, str | UserString) and len(str(value)) <= bound):
-            text = f"The '{name}' field must be string value not longer than {bound}"
-            raise refusal(text, f"Got {shown(value)}")
-        return str(value) if isinstance(value, UserString) else value
+        if is_value(value) and (kind is not bytes or len(value) == 1):
+            return kind(value) if made_plain else value
+        is_kind = isinstance(value, kind)
+        wanted = f"of type '{kind.__name__}'"
+        if kind is bytes:
+            wanted = "of type 'bytes' or 'ByteString' with length 1"
+        elif type_.string_bound is not None:
+            wanted = f"string value not longer than {type_.string_bound}"
+        elif is_kind:
+            wanted = f"{'a' if kind is float else 'an'} {_range(type_.base)}"
+        hint = "" if is_kind else f"; {_HINTS[kind]}"
+        raise refusal(f"The '{name}' field must be {wanted}", f"Got {shown(value)}{hint}")
 
     return check
 
@@ -180,21 +145,15 @@ def message_check(name: str, message_class: type) -> Check:
     return check
 
 
-def list_check(name: str, type_: FieldType, element_class: type) -> Check:
+def list_check(name: str, type_: FieldType, element_class: type[Any]) -> Check:
     """Check of an array or sequence that is kept as it was given (messages, strings, booleans, bytes)."""
-    allowed = {element_class}
-    bound = type_.string_bound
-
-    def is_element(value: Any) -> bool:
-        known: Any = value if isinstance(value, element_class) else None
-        return known is not None and (bound is None or len(known) <= bound)
+    allowed = {element_class} if type_.string_bound is None and type_.base not in TYPE_CODES else set()
+    is_element, lengths = _value_test(type_, element_class), type_.lengths
 
     def check(value: Any) -> Any:
-        if _is_collection(value) and _fits(type_, len(value)):
-            if set(map(type, value)) <= allowed and bound is None:
-                return value
-            if all(map(is_element, value)):
-                return value
+        fits = _is_collection(value) and len(value) in lengths
+        if fits and (set(map(type, value)) <= allowed or all(map(is_element, value))):
+            return value
         raise _no_collection(name, type_, element_class, value, is_element)
 
     return check
@@ -202,51 +161,61 @@ def list_check(name: str, type_: FieldType, element_class: type) -> Check:
 
 def sequence_check(name: str, type_: FieldType) -> Check:
     """Check of a sequence of numbers, stored as `array.array`; one of the right kind is taken as is."""
-    code = TYPE_CODES[type_.base]
-    number = float if type_.base in FLOAT_BOUNDS else int
-    allowed = {number}
-    is_element = _number_test(type_.base)
+    code, make, lengths = TYPE_CODES[type_.base], _array_maker(name, type_), type_.lengths
 
     def check(value: Any) -> array[Any]:
-        if isinstance(value, array):
-            text = f"The '{name}' array.array() must have "
-            if value.typecode != code:
-                note = f"Got the type code '{value.typecode}'; write array.array('{code}', [...])"
-                raise refusal(f"{text}the type code of '{code}'", note)
-            if not _fits(type_, len(value)):
-                raise refusal(f"{text}a size <= {type_.size}", f"Got a size of {len(value)}")
-            return value
-        if _is_collection(value) and _fits(type_, len(value)):
-            quick = _quick_array(code, value) if set(map(type, value)) <= allowed else None
-            if quick is not None:
-                return quick
-            if all(map(is_element, value)):
-                return array(code, value)
-        raise _no_collection(name, type_, number, value, is_element)
+        if not isinstance(value, array):
+            return make(value)
+        text = f"The '{name}' array.array() must have "
+        if value.typecode != code:
+            note = f"Got the type code '{value.typecode}'; write array.array('{code}', [...])"
+            raise refusal(f"{text}the type code of '{code}'", note)
+        if len(value) not in lengths:
+            raise refusal(f"{text}a size <= {type_.size}", f"Got a size of {len(value)}")
+        return value
 
     return check
 
 
+def _array_maker(name: str, type_: FieldType) -> Callable[[Any], array[Any]]:
+    """What makes an array of a collection of numbers; raises AssertionError for what is none, or does not fit."""
+    code, number, lengths = TYPE_CODES[type_.base], type(zero(type_.base)), type_.lengths
+    allowed, check_list = {number}, list_check(name, type_, number)
+
+    def make(value: Any) -> array[Any]:
+        if isinstance(value, bytes | bytearray) and code != "B":
+            value = list(value)  # array() would make numbers of several bytes each
+        if type(value) in (list, tuple, bytes) and len(value) in lengths and set(map(type, value)) <= allowed:
+            try:
+                if code != "f":
+                    return array(code, value)
+                packed = Struct(f"={len(value)}f").pack(*value)  # faster than array("f", value), and it finds overflow
+                if _LARGEST not in packed:
+                    return array(code, packed)
+            except OverflowError:
+                pass  # each number needs a look
+        return array(code, check_list(value))
+
+    return make
+
+
 def numpy_check(name: str, type_: FieldType) -> Check:
     """Check of a fixed number of numbers, stored as a numpy array; one of the right kind is taken as is."""
-    number = float if type_.base in FLOAT_BOUNDS else int
-    is_element = _number_test(type_.base)
+    make = _array_maker(name, type_)
 
     def check(value: Any) -> Any:
         import numpy
 
         dtype = numpy.dtype(numpy_name(type_.base))
-        if isinstance(value, numpy.ndarray):
-            if value.dtype != dtype:
-                text = f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{dtype.name}'"
-                raise refusal(text, f"Got dtype {value.dtype}; .astype(numpy.{dtype.name}) converts")
-            if value.size != type_.size:
-                text = f"The '{name}' numpy.ndarray() must have a size of {type_.size}"
-                raise refusal(text, f"Got a size of {value.size}")
-            return value
-        if _is_collection(value) and len(value) == type_.size and all(map(is_element, value)):
-            return numpy.array(list(value), dtype=dtype)
-        raise _no_collection(name, type_, number, value, is_element)
+        if not isinstance(value, numpy.ndarray):
+            return numpy.array(make(value), dtype)
+        if value.dtype != dtype:
+            text = f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{dtype.name}'"
+            raise refusal(text, f"Got dtype {value.dtype}; .astype(numpy.{dtype.name}) converts")
+        if value.size != type_.size:
+            text = f"The '{name}' numpy.ndarray() must have a size of {type_.size}"
+            raise refusal(text, f"Got a size of {value.size}")
+        return value
 
     return check
 
@@ -256,35 +225,30 @@ def numpy_name(base: str) -> str:
     return "uint8" if base == "char" else base
 
 
-def _quick_array(code: str, value: Collection[Any]) -> array[Any] | None:
-    """The array of plain numbers, or None where a number may be out of bounds and each needs a look."""
-    try:
-        if code != "f":
-            return array(code, value)
-        packed = Struct(f"={len(value)}f").pack(*value)  # faster than array("f", value), and it finds overflow
-    except OverflowError:
-        return None
-    return None if _LARGEST in packed else array(code, packed)
+def _value_test(type_: FieldType, kind: type[Any]) -> Callable[[Any], bool]:
+    """What is true of the values, or elements, of a field."""
+    bound = type_.string_bound
+    if bound is not None:
+        return lambda value: isinstance(value, kind) and len(value) <= bound
+    if type_.base not in TYPE_CODES:
+        return lambda value: isinstance(value, kind)
+    low, high = bounds(type_.base)
+    if kind is int:
+        return lambda value: isinstance(value, int) and low <= value <= high
+    return lambda value: isinstance(value, float) and (low <= value <= high or not isfinite(value))
 
 
-def _number_test(base: str) -> Callable[[Any], bool]:
-    if base in FLOAT_BOUNDS:
-        bound = FLOAT_BOUNDS[base]
-        return lambda value: isinstance(value, float) and (not abs(value) > bound or isinf(value))
-    low, high = integer_bounds(base)
-    return lambda value: isinstance(value, int) and low <= value <= high
+def _range(base: str, digits: str = "") -> str:
+    """`unsigned integer in [0, 255]`."""
+    low, high = bounds(base)
+    word = FLOAT_WORDS.get(base) or ("integer" if low else "unsigned integer")
+    return f"{word} in [{low:{digits}}, {high:{digits}}]"
 
 
 def _is_collection(value: object) -> bool:
     if type(value) in (list, tuple):
         return True
-    return isinstance(value, Sequence | Set | UserList) and not isinstance(value, str | UserString)
-
-
-def _fits(type_: FieldType, length: int) -> bool:
-    if type_.size is None:
-        return True
-    return length == type_.size if type_.is_fixed else length <= type_.size
+    return isinstance(value, Sequence | Set) and not isinstance(value, str | UserString)
 
 
 def _no_collection(
@@ -297,12 +261,8 @@ def _no_collection(
     if type_.string_bound is not None:
         words.append(f"and each string value not longer than {type_.string_bound}")
     words.append(f"and each value of type '{element.__name__}'")
-    if type_.base in FLOAT_BOUNDS:
-        bound = FLOAT_BOUNDS[type_.base]
-        words.append(f"and each {FLOAT_WORDS[type_.base]} in [{-bound:f}, {bound:f}]")
-    elif type_.base in TYPE_CODES:
-        low, high = integer_bounds(type_.base)
-        words.append(f"and each {'integer' if low else 'unsigned integer'} in [{low}, {high}]")
+    if type_.base in TYPE_CODES:
+        words.append(f"and each {_range(type_.base, 'f' if element is float else '')}")
     note = f"Got {shown(value)}" + ("; .tolist() makes a list of it" if hasattr(value, "tolist") else "")
     if _is_collection(value):
         wrong = (f"Element {index} is {shown(each)}" for index, each in enumerate(value) if not is_element(each))

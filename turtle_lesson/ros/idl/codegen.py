@@ -13,11 +13,10 @@ from functools import partial
 from typing import Any
 
 from . import checks, message
+from .checks import zero
 from .message import slot_type
 from .model import Definition, Field, Plain
-from .names import FLOATS, STRINGS, integer_bounds
-
-ZEROS: dict[str, Plain | bytes] = {"bool": False, "byte": b"\x00", "string": "", "wstring": ""}
+from .names import bounds
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,41 +91,28 @@ def literal(base: str, value: Plain | bytes) -> str:
     return repr(value)
 
 
-def zero(base: str) -> Plain | bytes:
-    """What a field of a primitive type holds where the definition gives no default."""
-    return ZEROS.get(base, 0.0 if base in FLOATS else 0)
-
-
 def _plain_kind(member: Field, key: str) -> Kind:
-    name, base, bound = member.name, member.type.base, member.type.string_bound
+    type_, check = member.type, f"_check_{key}"
+    base, kind = type_.base, type(zero(type_.base))
     value = zero(base) if member.default is None else member.default
     assert not isinstance(value, tuple)
-    limits, copy = "", "{value}"
-    if base in FLOATS:
-        kind, check = "_float", checks.float_check(name, base)
-        limit = checks.FLOAT_BOUNDS[base]
-        limits = f" and {-limit} <= {{value}} <= {limit}" if base == "float32" else ""
-    elif base in STRINGS:
-        kind, check, copy = "_str", checks.string_check(name, bound), "_plain_text({value})"
-        limits = "" if bound is None else f" and _len({{value}}) <= {bound}"
-    elif base == "bool":
-        kind, check = "_bool", checks.bool_check(name)
-    elif base == "byte":
-        kind, check, limits = "_bytes", checks.byte_check(name), " and _len({value}) == 1"
-    else:
-        low, high = integer_bounds(base)
-        kind, check, copy = "_int", checks.integer_check(name, base), "+{value}"  # + makes 1 of True
-        limits = f" and {low} <= {{value}} <= {high}"
-    variable = f"_check_{key}"
+    test = f"_type({{value}}) is _{kind.__name__}"
+    if kind is bytes:
+        test += " and _len({value}) == 1"
+    elif type_.string_bound is not None:
+        test += f" and _len({{value}}) <= {type_.string_bound}"
+    elif kind is int or base == "float32":
+        low, high = bounds(base)
+        test += f" and {low} <= {{value}} <= {high}"
     return Kind(
-        name=name,
-        check=variable,
+        name=member.name,
+        check=check,
         fresh=literal(base, value),
-        test=f"_type({{value}}) is {kind}{limits}",
-        copy=copy,
+        test=test,
+        copy={str: "_plain_text({value})", int: "+{value}"}.get(kind, "{value}"),  # + makes 1 of True
         shares=True,
         is_float32=base == "float32",
-        objects={variable: checks.assigned(check)},
+        objects={check: checks.assigned(checks.scalar_check(member.name, type_))},
     )
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from . import names
 from .model import ArrayKind, Constant, Definition, Field, FieldType, InvalidDefinition, Plain, Value
-from .names import FLOATS, STRINGS, integer_bounds
+from .names import FLOATS, STRINGS, bounds
 
 Line = tuple[int, str]  # line number in the file, counted from 1, and the text
 
@@ -210,7 +210,7 @@ def _parse_plain(base: str, text: str, string_bound: int | None = None) -> Plain
         except ValueError:
             rule = "must be a floating point number using '.' as the separator"
             raise _invalid(base, text, rule) from None
-    low, high = integer_bounds(base) if base not in ("time", "duration") else (0, -1)
+    low, high = bounds(base) if base not in ("time", "duration") else (0, -1)
     for number_base in (10, 0):  # 0 also reads 0x10 and 0b11
         try:
             value = int(text, number_base)

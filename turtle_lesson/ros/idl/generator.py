@@ -27,11 +27,10 @@ from typing import Any
 
 from .. import hooks
 from . import message
-from .checks import FLOAT_BOUNDS
 from .codegen import Kind, kind_of, message_source, wrapper_source
 from .message import slot_type
 from .model import Constant, Definition, Field, FieldType, InvalidDefinition, Plain, carriers
-from .names import module_name
+from .names import bounds, module_name
 
 Resolve = Callable[[FieldType], type]
 """Gives the class of a field's messages; raises InvalidDefinition where there is none."""
@@ -224,7 +223,7 @@ def check_value(base: str, value: Plain) -> None:
     elif isinstance(value, float) and not isfinite(value):
         reason = f"value '{value}' cannot be written in a form that a build accepts"
         hint = "Set it in the program: float('nan'), float('inf')"
-    elif isinstance(value, float) and abs(value) > FLOAT_BOUNDS[base]:
+    elif isinstance(value, float) and abs(value) > bounds(base)[1]:
         reason = f"value '{value}' is too large for {base}"
     if reason:
         raise InvalidDefinition(reason, "InvalidValue", hint=hint)

@@ -5,6 +5,7 @@ Made by `definition.parse`; all but the error is immutable.
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Literal
@@ -52,6 +53,13 @@ class FieldType:
     def is_bounded(self) -> bool:
         """Whether the number of elements is at most `size`."""
         return self.array == "bounded"
+
+    @property
+    def lengths(self) -> range:
+        """How many elements an array may have."""
+        if self.size is None:
+            return range(sys.maxsize)
+        return range(self.size if self.is_fixed else 0, self.size + 1)
 
     def __str__(self) -> str:
         base = self.base if self.package is None else f"{self.package}/{self.base}"

@@ -28,8 +28,11 @@ _FROM_OTHER_LANGUAGES = {
 _WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=.)(?=[A-Z][a-z])")
 
 
-def integer_bounds(base: str) -> tuple[int, int]:
-    """Smallest and largest value of an integer type; byte (IDL's octet) and char count as uint8."""
+def bounds(base: str) -> tuple[float, float]:
+    """Smallest and largest value of a type of numbers (of floats: finite one); byte (IDL's octet) and char count as uint8."""
+    if base in FLOATS:
+        largest = 3.402823466e38 if base == "float32" else 1.7976931348623157e308
+        return -largest, largest
     if base in ("byte", "octet", "char"):
         return 0, 255
     unsigned = base.startswith("u")
