@@ -110,8 +110,8 @@ def _codec(message_class: Any) -> Codec:
     if known is not None:
         return known
     fields = [
-        (f"_{field.name}", *(_array if field.type.is_array else _single)(field.type, kind.element_class))
-        for field, kind in zip(message_class._DEFINITION.fields, message_class._KINDS, strict=True)  # type: ignore[attr-defined]
+        (f"_{kind.name}", *(_array if kind.member.type.is_array else _single)(kind.member.type, kind.element_class))
+        for kind in message_class._KINDS  # type: ignore[attr-defined]
     ]
 
     def write(body: bytearray, message: Any) -> None:

@@ -67,9 +67,9 @@ def sendable(message: Any) -> Any:
     Raises TypeError for a value that cannot be sent.
     """
     new = type(message)._FRESH()
-    for member, kind in zip(type(message)._DEFINITION.fields, type(message)._KINDS, strict=True):
-        value = getattr(message, f"_{member.name}")
-        if not member.type.is_array and member.type.base in FLOATS and isinstance(value, int):
+    for kind in type(message)._KINDS:
+        value, type_ = getattr(message, f"_{kind.name}"), kind.member.type
+        if not type_.is_array and type_.base in FLOATS and isinstance(value, int):
             value = float(value)
         try:
             value = kind.objects[kind.check].__wrapped__(value)
@@ -78,11 +78,9 @@ def sendable(message: Any) -> Any:
             for note in (*getattr(error, "__notes__", ()), "Since ROS 2 Iron this is found when the message is sent."):
                 refused.add_note(note)
             raise refused from None
-        if kind.message_class is not None:
-            value = sendable(value)
-        elif kind.element_class is not None:
-            value = [sendable(each) for each in value]
-        setattr(new, f"_{member.name}", value)
+        if kind.element_class is not None:
+            value = [sendable(each) for each in value] if type_.is_array else sendable(value)
+        setattr(new, f"_{kind.name}", value)
     return new
 
 

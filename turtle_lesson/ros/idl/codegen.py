@@ -15,7 +15,7 @@ from typing import Any
 from . import checks, message
 from .checks import zero
 from .message import slot_type
-from .model import Definition, Field, Plain
+from .model import Definition, Field, FieldType, Plain
 from .names import bounds
 
 
@@ -24,49 +24,55 @@ class Kind:
     """What the generator needs to know of one field.
 
     Attributes:
-        name: the field's name.
+        member: type, name and default, as the definition has them.
         check: global name of the function that checks a value and gives what to store.
         fresh: expression of the default value.
         test: expression that is true where a value can be stored as it is; empty where each needs the check.
         copy: expression of a value's copy, as it is after transport.
         construct: expression of what the constructor stores for a value it was given.
-        shares: whether the default may be shared by all messages (a number, a text).
-        is_float32: whether transport rounds the value to a float32.
         same: expression that compares `{value}` with `{other}`.
-        message_class: class of the value, where the field is one message.
         element_class: class of the value or of its elements, where these are messages.
+        inner: the fields of a message that is written out field by field, which is fast.
         objects: globals that these expressions use.
-        lines: how many fields stand where this one is written out, a message field by field.
     """
 
-    name: str
+    member: Field
     check: str
     fresh: str
     test: str = ""
     copy: str = "{value}"
     construct: str = ""
-    shares: bool = False
-    is_float32: bool = False
     same: str = "{value} == {other}"
-    message_class: type | None = None
     element_class: type | None = None
+    inner: tuple[Kind, ...] = ()
     objects: dict[str, Any] = field(default_factory=dict)
-    lines: int = 1
 
     @property
-    def inlined(self) -> tuple[Kind, ...] | None:
-        """The fields of a message that is written out field by field, which is fast; None for what is not."""
-        if self.message_class is None or self.lines == 1:
-            return None
-        kinds: tuple[Kind, ...] = self.message_class._KINDS  # type: ignore[attr-defined]
-        return kinds
+    def name(self) -> str:
+        """The field's name."""
+        return self.member.name
+
+    @property
+    def shares_default(self) -> bool:
+        """Whether the default may be shared by all messages (a number, a text)."""
+        return self.member.type.is_primitive and not self.member.type.is_array
+
+    @property
+    def is_float32(self) -> bool:
+        """Whether transport rounds the value to a float32."""
+        return self.member.type == FieldType("float32")
 
     @property
     def shown_default(self) -> str:
         """The default as a signature shows it."""
-        if self.message_class is not None:
-            return f"{self.message_class.__name__}()"
+        if self.element_class is not None and not self.member.type.is_array:
+            return f"{self.element_class.__name__}()"
         return self.fresh.replace("_numpy_", "numpy.").replace("_array('", "array('")
+
+    @property
+    def lines(self) -> int:
+        """How many fields stand where this one is written out."""
+        return 1 + sum(kind.lines for kind in self.inner)
 
 
 MOST_LINES = 64
@@ -105,13 +111,11 @@ def _plain_kind(member: Field, key: str) -> Kind:
         low, high = bounds(base)
         test += f" and {low} <= {{value}} <= {high}"
     return Kind(
-        name=member.name,
-        check=check,
+        member,
+        check,
         fresh=literal(base, value),
         test=test,
         copy={str: "_plain_text({value})", int: "+{value}"}.get(kind, "{value}"),  # + makes 1 of True
-        shares=True,
-        is_float32=base == "float32",
         objects={check: checks.assigned(checks.scalar_check(member.name, type_))},
     )
 
@@ -119,21 +123,19 @@ def _plain_kind(member: Field, key: str) -> Kind:
 def _message_kind(member: Field, key: str, message_class: type) -> Kind:
     check, fresh, variable = f"_check_{key}", f"_fresh_{key}", class_variable(message_class)
     inner: tuple[Kind, ...] = message_class._KINDS  # type: ignore[attr-defined]
-    lines = 1 + sum(kind.lines for kind in inner)
     return Kind(
-        name=member.name,
-        check=check,
+        member,
+        check,
         fresh=f"{fresh}()",
         test=f"_type({{value}}) is {variable}",
         copy="{value}._wire_copy()",
-        message_class=message_class,
         element_class=message_class,
+        inner=inner if sum(kind.lines for kind in inner) < MOST_LINES else (),
         objects={
             check: checks.assigned(checks.message_check(member.name, message_class)),
             fresh: message_class._FRESH,  # type: ignore[attr-defined]
             variable: message_class,
         },
-        lines=lines if lines <= MOST_LINES else 1,
     )
 
 
@@ -144,8 +146,8 @@ def _sequence_kind(member: Field, key: str) -> Kind:
     start = f", {list(member.default)!r}" if isinstance(member.default, tuple) else ""
     made = f"_array('{code}', {{value}})"
     return Kind(
-        name=member.name,
-        check=check,
+        member,
+        check,
         fresh=f"_array('{code}'{start})",
         test=f"_type({{value}}) is _array and {{value}}.typecode == '{code}'{limits}",
         copy="{value}[:]",
@@ -159,8 +161,8 @@ def _numpy_kind(member: Field, key: str) -> Kind:
     name = checks.numpy_name(type_.base)
     given = isinstance(member.default, tuple) and repr(list(member.default))
     return Kind(
-        name=member.name,
-        check=check,
+        member,
+        check,
         fresh=f"_numpy_array({given}, '{name}')" if given else f"_numpy_zeros({type_.size}, '{name}')",
         copy="{value}.flatten()",
         construct=f"{check}(_numpy_array({{value}}, '{name}'))",
@@ -192,8 +194,8 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
     else:
         fresh = f"[{literal(type_.base, zero(type_.base))}] * {type_.size}"
     return Kind(
-        name=member.name,
-        check=check,
+        member,
+        check,
         fresh=fresh,
         copy=copy,
         element_class=message_class,
@@ -215,11 +217,7 @@ Lines = list[str]
 def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
     """Metaclass, class and fresh-message function of one message."""
     name = definition.name
-    defaults = [
-        (f"{member.name.upper()}__DEFAULT", kind.fresh)
-        for member, kind in zip(definition.fields, kinds, strict=True)
-        if member.default is not None
-    ]
+    defaults = [(f"{kind.name.upper()}__DEFAULT", kind.fresh) for kind in kinds if kind.member.default is not None]
     same = [kind.same.format(value=f"self._{kind.name}", other=f"other._{kind.name}") for kind in kinds]
     lines = [
         *_metaclass(definition, defaults),
@@ -337,10 +335,10 @@ def _constructor(name: str, kinds: Sequence[Kind]) -> Lines:
     me = "_self" if any(kind.name == "self" for kind in kinds) else "self"
     arguments, body = "", []
     for kind in kinds:
-        default = kind.fresh if kind.shares else f"_unset_{name}_{kind.name}"
+        default = kind.fresh if kind.shares_default else f"_unset_{name}_{kind.name}"
         value = kind.construct.format(value=kind.name) or _stored(kind, kind.name)
         arguments += f"{kind.name}={default}, "
-        given = value if kind.shares else f"{kind.fresh} if {kind.name} is {default} else {value}"
+        given = value if kind.shares_default else f"{kind.fresh} if {kind.name} is {default} else {value}"
         body.append(f"    {me}._{kind.name} = {given}")
     head = f"def __init__({me}, {'*, ' if kinds else ''}{arguments}**_unknown):"
     return ["", head, "    if _unknown:", f"        _refuse_arguments({name}, _unknown)", *body]
@@ -381,11 +379,11 @@ def _filled(new: str, kinds: Sequence[Kind], old: str, packed: list[tuple[str, s
     lines: Lines = []
     for kind in kinds:
         target, source = f"{new}._{kind.name}", f"{old}._{kind.name}"
-        if kind.message_class is not None and kind.inlined is not None:
+        if kind.element_class is not None and kind.inner:
             inner, inner_old = f"{new}__{kind.name}", f"{old}__{kind.name}" if old else ""
             lines += [f"{inner_old} = {source}"] if old else []
-            lines.append(f"{target} = {inner} = _new({class_variable(kind.message_class)})")
-            lines += _filled(inner, kind.inlined, inner_old, packed)
+            lines.append(f"{target} = {inner} = _new({class_variable(kind.element_class)})")
+            lines += _filled(inner, kind.inner, inner_old, packed)
         elif not old:
             lines.append(f"{target} = {kind.fresh}")
         elif kind.is_float32:

@@ -127,7 +127,7 @@ class _Builder:
         for kind in written_out:
             self._globals.update(kind.objects)
         for kind in kinds:
-            if not kind.shares:
+            if not kind.shares_default:
                 self._globals[f"_unset_{name}_{kind.name}"] = message.Unset(kind.shown_default)
         if rounded := sum(kind.is_float32 for kind in written_out):
             packing = Struct(f"{rounded}f")  # rounds them to float32
@@ -159,8 +159,7 @@ def _with_inner(kinds: Iterable[Kind]) -> Iterator[Kind]:
     """All fields, those of messages that are written out included."""
     for kind in kinds:
         yield kind
-        if kind.inlined is not None:
-            yield from _with_inner(kind.inlined)
+        yield from _with_inner(kind.inner)
 
 
 # -- what can be read in a definition and yet not be built -------------------------------------------------------------
