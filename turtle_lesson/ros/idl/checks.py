@@ -149,7 +149,7 @@ def list_check(name: str, type_: FieldType, element_class: type[Any]) -> Check:
     is_element, lengths = _value_test(type_, element_class), type_.lengths
 
     def check(value: Any) -> Any:
-        fits = _is_collection(value) and len(value) in lengths
+        fits = (type(value) is list or _is_collection(value)) and len(value) in lengths
         if fits and (set(map(type, value)) <= allowed or all(map(is_element, value))):
             return value
         raise _no_collection(name, type_, element_class, value, is_element)
@@ -179,11 +179,11 @@ def _array_maker(name: str, type_: FieldType) -> Callable[[Any], array[Any]]:
     """What makes an array of a collection of numbers; raises AssertionError for what is none, or does not fit."""
     code, number, lengths = TYPE_CODES[type_.base], type(zero(type_.base)), type_.lengths
     allowed, check_list = {number}, list_check(name, type_, number)
+    # Of bytes, array() would make numbers of several bytes.
+    quick = {list, tuple, bytes, bytearray} if code == "B" else {list, tuple}
 
     def make(value: Any) -> array[Any]:
-        if isinstance(value, bytes | bytearray) and code != "B":
-            value = list(value)  # array() would make numbers of several bytes each
-        if type(value) in (list, tuple, bytes) and len(value) in lengths and set(map(type, value)) <= allowed:
+        if type(value) in quick and len(value) in lengths and set(map(type, value)) <= allowed:
             try:
                 if code != "f":
                     return array(code, value)
@@ -192,7 +192,7 @@ def _array_maker(name: str, type_: FieldType) -> Callable[[Any], array[Any]]:
                     return array(code, packed)
             except OverflowError:
                 pass  # each number needs a look
-        return array(code, check_list(value))
+        return array(code, list(check_list(value)))
 
     return make
 
@@ -244,8 +244,6 @@ def _range(base: str, digits: str = "") -> str:
 
 
 def _is_collection(value: object) -> bool:
-    if type(value) in (list, tuple):
-        return True
     return isinstance(value, Sequence | Set) and not isinstance(value, str | UserString)
 
 
