@@ -27,7 +27,7 @@ built_in = Registry()
 def faults_of(registry: Registry, package: str) -> list[InvalidDefinition]:
     """All that a build would refuse: the first fault of each definition file, in order of the names."""
     faults = []
-    for interface in registry.interface_names(package):
+    for interface in registry.package(package).interface_names():
         try:
             registry.module(package, interface)
         except InvalidDefinition as error:
@@ -62,7 +62,7 @@ def message_class(text, package="demo_msgs", name="Demo"):
 def find_class(name):
     """A class of the usual packages by its bare name."""
     for package in ("std_msgs", "geometry_msgs", "sensor_msgs", "builtin_interfaces"):
-        if f"msg/{name}" in built_in.interface_names(package):
+        if f"msg/{name}" in built_in.package(package).interface_names():
             return built_in.get(f"{package}/{name}")
     raise LookupError(name)
 

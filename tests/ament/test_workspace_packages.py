@@ -108,7 +108,7 @@ def test_a_package_of_a_course_is_built_from_its_sources_without_a_word(four: Pa
     answer = colcon(world, "build --packages-select px4_msgs")
     assert (answer.code, answer.err) == (0, "")
     source_in(world, "install/setup.bash")
-    assert registry.interface_names("px4_msgs") == ["msg/GotoSetpoint", "msg/OffboardControlMode"]
+    assert registry.package("px4_msgs").interface_names() == ["msg/GotoSetpoint", "msg/OffboardControlMode"]
     world.close()
     assert "# µs since" in registry.text("px4_msgs", "msg/ActuatorMotors", comments=True)  # the lesson's own again
 

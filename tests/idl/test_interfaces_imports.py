@@ -106,7 +106,7 @@ def test_a_missing_name_is_an_import_error_with_a_suggestion(demo):
 def test_no_suggestion_is_looked_for_where_all_modules_are_asked(demo, monkeypatch):
     import demo_msgs.msg
 
-    monkeypatch.setattr("turtle_lesson.ros.idl.registry._hint", None)
+    monkeypatch.setattr("turtle_lesson.ros.idl.registry.Package.advice", None)
     assert getattr(demo_msgs.msg, "__file__", None) is None
 
 
@@ -237,7 +237,7 @@ def test_users_of_a_changed_message_change_with_it(demo, registry, tmp_path):
 
 def test_only_files_that_are_named_count(demo, registry):
     registry.add("demo_msgs", demo, ["msg/Status.msg", "./srv/Charge.srv"])
-    assert registry.interface_names("demo_msgs") == ["msg/Status", "srv/Charge"]
+    assert registry.package("demo_msgs").interface_names() == ["msg/Status", "srv/Charge"]
     with pytest.raises(ImportError, match=r"msg/StatusList\.msg is there, but CMakeLists\.txt does not name it"):
         from demo_msgs.msg import StatusList  # noqa: F401
     registry.add("demo_msgs", demo, ["msg/Nope.msg"])
@@ -258,7 +258,7 @@ def test_a_built_in_package_can_be_replaced_for_a_while(registry, tmp_path):
 def test_the_registry_knows_names_and_texts(demo, registry):
     assert {"demo_msgs", "geometry_msgs", "turtlesim", "std_srvs"} <= set(registry.packages())
     names = ["msg/Status", "msg/StatusList", "srv/Charge", "action/Drive"]
-    assert registry.interface_names("demo_msgs") == names
+    assert registry.package("demo_msgs").interface_names() == names
     assert registry.text("demo_msgs", "srv/Charge") == DEMO["srv/Charge.srv"]
     assert registry.definition("demo_msgs/msg/Status").fields[0].name == "battery"
 

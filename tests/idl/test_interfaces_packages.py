@@ -32,7 +32,10 @@ turtlesim type_description_interfaces unique_identifier_msgs visualization_msgs
 )
 
 MESSAGES = [
-    f"{package}/{name}" for package in PACKAGES for name in built_in.interface_names(package) if name.startswith("msg/")
+    f"{package}/{name}"
+    for package in PACKAGES
+    for name in built_in.package(package).interface_names()
+    if name.startswith("msg/")
 ]
 KNOWN_ELSEWHERE = [name for name in MESSAGES if name in HUMBLE.fielddefs or name in KILTED.fielddefs]
 
@@ -89,7 +92,7 @@ def test_any_message_is_read_and_written_alike_by_another_library(data: st.DataO
 
 def test_every_built_in_definition_is_sound_and_its_default_message_travels() -> None:
     for package in PACKAGES:
-        for interface in built_in.interface_names(package):
+        for interface in built_in.package(package).interface_names():
             kind = built_in.get(f"{package}/{interface}")
             assert f"{package}/{interface}" == kind._TYPE_NAME
             for part in kind._DEFINITION.parts or (kind._DEFINITION,):

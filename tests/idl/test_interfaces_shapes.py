@@ -104,7 +104,7 @@ def shapes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Registry]:
 
 def parts(registry: Registry) -> list[Any]:
     """The classes of all messages of the package, requests and goals included."""
-    names = registry.interface_names("shapes")
+    names = registry.package("shapes").interface_names()
     definitions = [registry.definition(f"shapes/{name}") for name in names]
     return [registry.get(part.full_name) for each in definitions for part in each.parts or (each,)]
 

@@ -185,7 +185,7 @@ def _check(name: str) -> None:
     owner = registry.package(package)
     if folder not in TITLES or not owner.has(f"{folder}/{base}"):
         where = shown_path(str(owner.directory / cut(f"{folder}/{base}", 100)))
-        hint = did_you_mean(name[:100], [f"{package}/{each}" for each in registry.interface_names(package)])
+        hint = did_you_mean(name[:100], [f"{package}/{each}" for each in registry.package(package).interface_names()])
         raise CommandError(f"Could not find the interface '{where}.idl'", hint)
 
 

@@ -62,7 +62,9 @@ def suggest_type(name: str, folder: str = "") -> str:
 
 def interface_names() -> list[str]:
     """The full names of all interfaces."""
-    return [f"{package}/{name}" for package in registry.packages() for name in registry.interface_names(package)]
+    return [
+        f"{package}/{name}" for package in registry.packages() for name in registry.package(package).interface_names()
+    ]
 
 
 # -- values ----------------------------------------------------------------------------------------------------------

@@ -108,7 +108,10 @@ class Package:
         if self.files is not None and path.is_file():
             return f"{interface}{path.suffix} is there, but CMakeLists.txt does not name it"
         folder, _, name = interface.partition("/")
-        return names.did_you_mean(name, self.names_in(folder))
+        whole, known = names.without_part(name), self.names_in(folder)
+        if whole != name and whole in known:
+            return f"Import {whole} and write {whole}.{name.rpartition('_')[2]}"
+        return names.did_you_mean(name, known)
 
 
 class Registry:
@@ -149,10 +152,6 @@ class Registry:
     def was_added(self, package: str) -> bool:
         """Whether a package was added, and is not the built-in one of its name."""
         return package in self._added
-
-    def interface_names(self, package: str) -> list[str]:
-        """Names such as `msg/Twist` of one package: messages, services, actions."""
-        return self.package(package).interface_names()
 
     def text(self, package: str, interface: str, *, comments: bool = False) -> str:
         """The text of a definition file, e.g. of `geometry_msgs` and `msg/Twist`.
@@ -334,18 +333,20 @@ class InterfaceFinder:
             return None
         owner, inner = self.registry.package(parts[0]), parts[1:]
         if not inner:
-            return ModuleSpec(fullname, _Loader(), origin=OUTER, is_package=True)
+            return ModuleSpec(fullname, _Loader(partial(ModuleType, fullname)), origin=OUTER, is_package=True)
         folder, known = inner[0], owner.names_in(inner[0])
         if not known:
             return None
         if len(inner) == 1:
-            loader = _Loader(fill=partial(_fill_folder, owner=owner, folder=folder))
+            loader = _Loader(partial(_folder_module, fullname, owner, folder))
             return ModuleSpec(fullname, loader, origin=f"made from {owner.name}/{folder}", is_package=True)
         for name in known:
             if names.module_name(name) == inner[1]:
                 return ModuleSpec(fullname, _Loader(partial(self.registry.module, parts[0], f"{folder}/{name}")))
         if inner[1][:1].isupper():  # `from std_msgs.msg import Strng` ends here once the attribute is missing
-            text = f"cannot import name '{inner[1]}' from '{owner.name}.{folder}'. {_hint(owner, folder, inner[1])}"
+            text = (
+                f"cannot import name '{inner[1]}' from '{owner.name}.{folder}'. {owner.advice(f'{folder}/{inner[1]}')}"
+            )
             raise ImportError(text.rstrip(". "), name=f"{owner.name}.{folder}")
         return None
 
@@ -363,44 +364,32 @@ def _is_found_elsewhere(fullname: str, path: Sequence[str] | None, target: Modul
 
 
 class _Loader(Loader):
-    """Gives a module that is made elsewhere, or fills in one that Python makes."""
+    """Gives a module that is made elsewhere, complete."""
 
-    def __init__(
-        self,
-        make: Callable[[], ModuleType | None] = lambda: None,
-        fill: Callable[[ModuleType], object] = lambda module: None,
-    ) -> None:
+    def __init__(self, make: Callable[[], ModuleType]) -> None:
         self._make = make
-        self._fill = fill
 
-    def create_module(self, spec: ModuleSpec) -> ModuleType | None:
-        """The complete module, or None to leave it to Python."""
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        """The module."""
         return self._make()
 
     def exec_module(self, module: ModuleType) -> None:
-        """Fill the module in."""
-        self._fill(module)
+        """Nothing is left to be done."""
 
 
-def _fill_folder(module: ModuleType, owner: Package, folder: str) -> None:
+def _folder_module(fullname: str, owner: Package, folder: str) -> ModuleType:
     """An inner package, e.g. `geometry_msgs.msg`, whose classes are made when first asked for."""
-    known = owner.names_in(folder)
+    module, known = ModuleType(fullname), owner.names_in(folder)
 
     def get(name: str) -> Any:
         if name not in known:
             if name.startswith("__"):  # asked of every module, by whoever looks through them all
-                raise AttributeError(f"module '{module.__name__}' has no attribute '{name}'", name=name)
-            text = f"module '{module.__name__}' has no attribute '{name}'. {_hint(owner, folder, name)}"
+                raise AttributeError(f"module '{fullname}' has no attribute '{name}'", name=name)
+            text = f"module '{fullname}' has no attribute '{name}'. {owner.advice(f'{folder}/{name}')}"
             raise AttributeError(text.rstrip(". "), name=name)
-        found = getattr(import_module(f"{module.__name__}.{names.module_name(name)}"), name)
+        found = getattr(import_module(f"{fullname}.{names.module_name(name)}"), name)
         setattr(module, name, found)
         return found
 
     module.__dict__.update(__getattr__=get, __dir__=lambda: sorted({*module.__dict__, *known}), __all__=known)
-
-
-def _hint(owner: Package, folder: str, name: str) -> str:
-    whole = names.without_part(name)
-    if whole != name and whole in owner.names_in(folder):
-        return f"Import {whole} and write {whole}.{name.rpartition('_')[2]}"
-    return owner.advice(f"{folder}/{name}")
+    return module

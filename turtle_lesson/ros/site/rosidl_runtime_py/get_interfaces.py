@@ -25,7 +25,7 @@ def get_interfaces(package_names: Iterable[str] = (), folders: Collection[str] =
         is_library = package.isidentifier() and (SITE / package / "__init__.py").is_file()
         if not registry.knows(package) and package not in current_packages() and not is_library:
             raise LookupError(f"Unknown package '{package}'")
-        names = registry.interface_names(package) if registry.knows(package) else []
+        names = registry.package(package).interface_names() if registry.knows(package) else []
         if wanted := [name for name in names if name.partition("/")[0] in folders]:
             found[package] = wanted
     return found
