@@ -89,14 +89,9 @@ def test_the_source_text_is_kept():
 def test_a_type_says_what_it_is_made_of():
     text = "string<=5[<=2] names\ngeometry_msgs/Point[3] corners\nfloat32[] ranges\nTwist t"
     names, corners, ranges, own = [field.type for field in parse_message("pkg", "Name", text).fields]
-    assert (names.base, names.string_bound, names.array, names.size) == ("string", 5, "bounded", 2)
-    assert (corners.package, corners.base, corners.array, corners.size) == (
-        "geometry_msgs",
-        "Point",
-        "fixed",
-        3,
-    )
-    assert (ranges.package, ranges.array, ranges.size) == (None, "unbounded", None)
+    assert (names.base, names.string_bound, names.lengths) == ("string", 5, range(3))
+    assert (corners.package, corners.base, corners.lengths) == ("geometry_msgs", "Point", range(3, 4))
+    assert (ranges.package, ranges.is_array, ranges.size) == (None, True, None)
     assert own.package == "pkg"
 
 

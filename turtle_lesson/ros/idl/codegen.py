@@ -142,7 +142,7 @@ def _message_kind(member: Field, key: str, message_class: type) -> Kind:
 def _sequence_kind(member: Field, key: str) -> Kind:
     type_, check = member.type, f"_check_{key}"
     code = checks.TYPE_CODES[type_.base]
-    limits = f" and _len({{value}}) <= {type_.size}" if type_.is_bounded else ""
+    limits = f" and _len({{value}}) <= {type_.size}" if type_.size is not None else ""
     start = f", {list(member.default)!r}" if isinstance(member.default, tuple) else ""
     made = f"_array('{code}', {{value}})"
     return Kind(
@@ -151,7 +151,7 @@ def _sequence_kind(member: Field, key: str) -> Kind:
         fresh=f"_array('{code}'{start})",
         test=f"_type({{value}}) is _array and {{value}}.typecode == '{code}'{limits}",
         copy="{value}[:]",
-        construct=f"{check}({made})" if type_.is_bounded else made,
+        construct=f"{check}({made})" if type_.size is not None else made,
         objects={check: checks.assigned(checks.sequence_check(member.name, type_), partial(array, code))},
     )
 

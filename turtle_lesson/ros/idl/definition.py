@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import zip_longest
 from pathlib import Path
 
 from . import names
-from .model import ArrayKind, Constant, Definition, Field, FieldType, InvalidDefinition, Plain, Value
+from .model import Constant, Definition, Field, FieldType, InvalidDefinition, Plain, Value
 from .names import FLOATS, STRINGS, bounds
 
 Line = tuple[int, str]  # line number in the file, counted from 1, and the text
@@ -131,8 +132,8 @@ def _parse_type(text: str, package: str) -> FieldType:
             hint=f"Write {base}[3], {base}[<=3] or {base}[]",
         )
     element = _parse_base(base, package)
-    kind: ArrayKind = "unbounded" if not count else "bounded" if count.startswith("<=") else "fixed"
-    return FieldType(element.base, element.package, kind, size, element.string_bound)
+    is_fixed = size is not None and not count.startswith("<=")
+    return replace(element, is_array=True, is_fixed=is_fixed, size=size)
 
 
 def _parse_base(text: str, package: str) -> FieldType:
@@ -185,7 +186,7 @@ def _parse_default(type_: FieldType, text: str) -> Value:
     elements = _split_strings(inner) if type_.base in STRINGS else inner.split(",") if inner else []
     if type_.is_fixed and len(elements) != type_.size:
         raise _invalid(type_, text, f"array must have exactly {type_.size} elements, not {len(elements)}")
-    if type_.is_bounded and type_.size is not None and len(elements) > type_.size:
+    if len(elements) not in type_.lengths:
         raise _invalid(type_, text, f"array must have not more than {type_.size} elements, not {len(elements)}")
     values = []
     for index, element in enumerate(elements):

@@ -8,11 +8,9 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 from pathlib import PurePath
-from typing import Literal
 
 Plain = bool | int | float | str
 Value = Plain | tuple[Plain, ...]
-ArrayKind = Literal["none", "fixed", "unbounded", "bounded"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,14 +20,15 @@ class FieldType:
     Attributes:
         base: primitive type, or the message's name without its package.
         package: package of that message; None for a primitive type.
-        size: the number of elements of a `fixed` array, the largest one of a `bounded` one.
+        size: the number of elements where it is fixed, or else the largest one; None where there is none.
         string_bound: largest number of characters, for a bounded string.
         folder: `msg`, except where an action's own messages hold its goal, result or feedback.
     """
 
     base: str
     package: str | None = None
-    array: ArrayKind = "none"
+    is_array: bool = False
+    is_fixed: bool = False
     size: int | None = None
     string_bound: int | None = None
     folder: str = "msg"
@@ -38,21 +37,6 @@ class FieldType:
     def is_primitive(self) -> bool:
         """Whether the elements are no messages."""
         return self.package is None
-
-    @property
-    def is_array(self) -> bool:
-        """Whether the field holds several values."""
-        return self.array != "none"
-
-    @property
-    def is_fixed(self) -> bool:
-        """Whether the number of elements is exactly `size`."""
-        return self.array == "fixed"
-
-    @property
-    def is_bounded(self) -> bool:
-        """Whether the number of elements is at most `size`."""
-        return self.array == "bounded"
 
     @property
     def lengths(self) -> range:
@@ -64,7 +48,8 @@ class FieldType:
     def __str__(self) -> str:
         base = self.base if self.package is None else f"{self.package}/{self.base}"
         bound = "" if self.string_bound is None else f"<={self.string_bound}"
-        count = {"none": "", "fixed": f"[{self.size}]", "bounded": f"[<={self.size}]", "unbounded": "[]"}[self.array]
+        size = "" if self.size is None else self.size if self.is_fixed else f"<={self.size}"
+        count = f"[{size}]" if self.is_array else ""
         return base + bound + count
 
 

@@ -17,7 +17,7 @@ from typing import Any
 
 import rclpy
 import yaml
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.executors import ExternalShutdownException
 from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -25,6 +25,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
+from rosidl_runtime_py import message_to_ordereddict
 from tf2_py._rotation import matrix_of, roll_pitch_yaw, turn_from_angles
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformException, TransformListener
 
@@ -152,8 +153,8 @@ OLD_STYLE = {8: (*SHIFT, "yaw", "pitch", "roll", *FRAMES), 9: (*SHIFT, *TURN, *F
 """What older releases took without flags, by how many words there are."""
 
 
-def read_words(words: list[str]) -> dict[str, object]:
-    """What the node's parameters shall be, from the words of a command line. Raises SystemExit, with what is wrong."""
+def read_words(words: list[str]) -> TransformStamped:
+    """The transform that the words of a command line name. Raises SystemExit, with what is wrong."""
     about = (
         "Publish a frame that never moves: where child-frame-id is, seen from frame-id. What is left out is 0, no turn."
     )
@@ -179,43 +180,36 @@ def read_words(words: list[str]) -> dict[str, object]:
         rotation = [default if part is None else part for part, default in zip(turn, (0.0, 0.0, 0.0, 1.0), strict=True)]
     else:
         rotation = [*turn_from_angles(*(angle or 0.0 for angle in angles))]
-    return {
-        **{f"translation.{name}": getattr(args, name) for name in SHIFT},
-        **{f"rotation.{name}": value for name, value in zip("xyzw", rotation, strict=True)},
-        "frame_id": args.frame_id,
-        "child_frame_id": args.child_frame_id,
-    }
+    message = TransformStamped(child_frame_id=args.child_frame_id)
+    message.header.frame_id = args.frame_id
+    message.transform.translation = Vector3(x=args.x, y=args.y, z=args.z)
+    message.transform.rotation = Quaternion(**dict(zip("xyzw", rotation, strict=True)))
+    return message
 
 
 class StaticPublisher(Node):
     """Tells of one frame; its figures are parameters that can only be read."""
 
-    def __init__(self, parameters: dict[str, object]) -> None:
+    def __init__(self, message: TransformStamped) -> None:
         letters = "".join(random.choice(string.ascii_letters + string.digits) for _ in range(16))
+        shift, turn = map(message_to_ordereddict, (message.transform.translation, message.transform.rotation))
+        parameters = {f"translation.{axis}": value for axis, value in shift.items()}
+        parameters |= {f"rotation.{axis}": value for axis, value in turn.items()}
+        parameters |= {"frame_id": message.header.frame_id, "child_frame_id": message.child_frame_id}
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         super().__init__(f"static_transform_publisher_{letters}", parameter_overrides=overrides)
-        read_only = ParameterDescriptor(read_only=True)
         for name, value in parameters.items():
-            self.declare_parameter(name, value, read_only)
+            self.declare_parameter(name, value, ParameterDescriptor(read_only=True))
         self._broadcaster = StaticTransformBroadcaster(self)
-        message = TransformStamped(child_frame_id=parameters["child_frame_id"])
-        message.header.frame_id = parameters["frame_id"]
         message.header.stamp = self.get_clock().now().to_msg()
-        for name, value in parameters.items():
-            part, _, axis = name.partition(".")
-            if axis:
-                setattr(getattr(message.transform, part), axis, value)
         self._broadcaster.sendTransform(message)
-        shift, turn = (
-            ", ".join(f"'{value:f}'" for name, value in parameters.items() if name.startswith(part))
-            for part in ("translation", "rotation")
-        )
-        ends = f"from '{parameters['frame_id']}' to '{parameters['child_frame_id']}'"
-        told = f"translation: ({shift})\nrotation: ({turn})\n{ends}"
+        translation, rotation = (", ".join(f"'{value:f}'" for value in part.values()) for part in (shift, turn))
+        told = f"translation: ({translation})\nrotation: ({rotation})\n"
+        told += f"from '{message.header.frame_id}' to '{message.child_frame_id}'"
         self.get_logger().info(f"Spinning until stopped - publishing transform\n{told}")
 
 
 def static_transform_publisher() -> int:
     """`static_transform_publisher --x 1 --frame-id A --child-frame-id B`, and the older way, until Ctrl-C."""
-    values = read_words(remove_ros_args(sys.argv)[1:])
-    return spin(lambda: StaticPublisher(values))
+    message = read_words(remove_ros_args(sys.argv)[1:])
+    return spin(lambda: StaticPublisher(message))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from functools import reduce
 
 import numpy as np
 import numpy.typing as npt
@@ -15,29 +16,21 @@ from tf2_py import _rotation as turns
 # Three angles about three axes, in 24 ways: `sxyz` is roll, pitch, yaw about fixed axes; `rzyx` about turning ones.
 # The letters name the axes in the order of the angles; `s` means axes that stay, `r` axes that are turned along.
 
-Axes = str | tuple[int, int, int, int]
-"""A name such as "sxyz", or its code: the first axis, then 1 or 0 for an odd order, a repeated axis, and turning axes."""
-
 Angles = tuple[float, float, float]
 Numbers = tuple[float, float, float, float]
 Matrix = npt.NDArray[np.float64]
 EPSILON = float(np.finfo(float).eps) * 4.0
 
 
-def _axes(axes: Axes) -> tuple[bool, tuple[int, int, int]]:
+def _axes(axes: str) -> tuple[bool, tuple[int, int, int]]:
     """Whether the axes turn along, and which they are."""
-    if not isinstance(axes, str):
-        first, parity, repeated, turning = axes
-        second = (first + 1 + parity) % 3
-        third = first if repeated else 3 - first - second
-        return (True, (third, second, first)) if turning else (False, (first, second, third))
-    numbers = tuple("xyz".find(letter) for letter in axes[1:])
+    numbers = tuple("xyz".find(letter) for letter in str(axes)[1:])
     if len(axes) != 4 or axes[0] not in "sr" or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
         raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', got {axes!r}")
     return axes[0] == "r", (numbers[0], numbers[1], numbers[2])
 
 
-def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Numbers:
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Numbers:
     """The quaternion of three angles: by default roll, pitch and yaw."""
     turning, numbers = _axes(axes)
     found: Numbers = (0.0, 0.0, 0.0, 1.0)
@@ -47,17 +40,17 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
     return found
 
 
-def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
+def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Matrix:
     """The 4 × 4 matrix of three angles: by default roll, pitch and yaw."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
-def euler_from_quaternion(quaternion: Iterable[float], axes: Axes = "sxyz") -> Angles:
+def euler_from_quaternion(quaternion: Iterable[float], axes: str = "sxyz") -> Angles:
     """The angles of a quaternion [x, y, z, w]: by default roll, pitch and yaw."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
-def euler_from_matrix(matrix: npt.ArrayLike, axes: Axes = "sxyz") -> Angles:
+def euler_from_matrix(matrix: npt.ArrayLike, axes: str = "sxyz") -> Angles:
     """The angles of a turn in a matrix. Where many would do, the one about the last fixed axis is 0."""
     turning, numbers = _axes(axes)
     turn = np.array(matrix, dtype=np.float64)[:3, :3]
@@ -123,10 +116,7 @@ def inverse_matrix(matrix: npt.ArrayLike) -> Matrix:
 
 def concatenate_matrices(*matrices: npt.ArrayLike) -> Matrix:
     """The product of matrices: the last one is applied first."""
-    product = np.identity(4)
-    for matrix in matrices:
-        product = product @ np.asarray(matrix, dtype=np.float64)
-    return product
+    return reduce(np.matmul, matrices, np.identity(4))
 
 
 def _four(quaternion: Iterable[float]) -> Numbers:
