@@ -22,12 +22,13 @@ Matrix = npt.NDArray[np.float64]
 EPSILON = float(np.finfo(float).eps) * 4.0
 
 
-def _axes(axes: str) -> tuple[bool, tuple[int, int, int]]:
+def _axes(axes: str) -> tuple[bool, tuple[int, ...]]:
     """Whether the axes turn along, and which they are."""
-    numbers = tuple("xyz".find(letter) for letter in str(axes)[1:])
-    if len(axes) != 4 or axes[0] not in "sr" or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
+    kind, letters = str(axes)[:1], str(axes)[1:]
+    numbers = tuple(map("xyz".find, letters))
+    if kind not in "sr" or len(numbers) != 3 or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
         raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', got {axes!r}")
-    return axes[0] == "r", (numbers[0], numbers[1], numbers[2])
+    return kind == "r", numbers
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Numbers:
