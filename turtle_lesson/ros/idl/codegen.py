@@ -217,158 +217,139 @@ Lines = list[str]
 def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
     """Metaclass, class and fresh-message function of one message."""
     name = definition.name
-    defaults = [(f"{kind.name.upper()}__DEFAULT", kind.fresh) for kind in kinds if kind.member.default is not None]
+    me = "_self" if any(kind.name == "self" for kind in kinds) else "self"
+    types = {kind.name: str(slot_type(kind.member.type)) for kind in kinds}
+    constants = {each.name: literal(each.type, each.value) for each in definition.constants}
+    defaults = {f"{kind.name.upper()}__DEFAULT": kind.fresh for kind in kinds if kind.member.default is not None}
+    of_class = [_class_property(each, f"Message constant '{each}'.", value) for each, value in constants.items()]
+    text = "Return default value of a message field."
+    of_class += [_class_property(each, text, value) for each, value in defaults.items()]
     same = [kind.same.format(value=f"self._{kind.name}", other=f"other._{kind.name}") for kind in kinds]
-    lines = [
-        *_metaclass(definition, defaults),
-        *_class_head(definition, defaults),
-        *_indent(_constructor(name, kinds)),
-        "",
-        "    def __eq__(self, other):",
-        "        return " + " and ".join(["_isinstance(other, self.__class__)", *same]),
-        *_indent(_wire_copy(name, kinds)),
-    ]
+    arguments, construct = "*, " if kinds else "", []
     for kind in kinds:
-        lines += _indent(_property(kind))
-    lines += [
-        "",
-        "",
-        f"def _fresh_{name}():",
-        '    """A message of default values, made without the constructor."""',
-        f"    new = _new({name})",
-        *_indent(_filled("new", kinds, "", [])),
-        "    return new",
-        "",
-        f"{name}._FRESH = _fresh_{name}",
-    ]
-    return "\n".join(lines) + "\n"
+        default = kind.fresh if kind.shares_default else f"_unset_{name}_{kind.name}"
+        value = kind.construct.format(value=kind.name) or _stored(kind, kind.name)
+        arguments += f"{kind.name}={default}, "
+        given = value if kind.shares_default else f"{kind.fresh} if {kind.name} is {default} else {value}"
+        construct.append(f"{me}._{kind.name} = {given}")
+    packed: list[tuple[str, str]] = []
+    copy = _filled("new", kinds, "self", packed)
+    if packed:
+        targets = "".join(f"{target}, " for target, _ in packed)
+        sources = ", ".join(source for _, source in packed)
+        copy.append(f"{targets}= _unpack_{len(packed)}(_pack_{len(packed)}({sources}))")
+    return f'''\
+class Metaclass_{name}(type):
+    """Metaclass of message '{name}'."""
+
+    _TYPE_SUPPORT = _support_{name}
+{"".join(of_class)}
+
+class {name}(metaclass=Metaclass_{name}):
+    {_docstring(name, types, constants)}
+
+{_indented(4, [f"{each} = {value}" for each, value in {**constants, **defaults}.items()])}\
+    __slots__ = {["_" + each for each in types]}
+    _fields_and_field_types = {types}
+    SLOT_TYPES = _slot_types_{name}
+    _TYPE_SUPPORT = _support_{name}
+    _TYPE_NAME = '{definition.full_name}'
+    _DEFINITION = _definition_{name}
+    _KINDS = _kinds_{name}
+    __repr__ = _message_repr
+
+    @_classmethod
+    def get_fields_and_field_types(cls):
+        """Names of the fields, and their types as text."""
+        return _dict(cls._fields_and_field_types)
+
+    def __init__({me}, {arguments}**_unknown):
+        if _unknown:
+            _refuse_arguments({name}, _unknown)
+{_indented(8, construct)}
+    def __eq__(self, other):
+        return {" and ".join(["_isinstance(other, self.__class__)", *same])}
+
+    def _wire_copy(self):
+        """Copy that shares nothing, with numbers as transport leaves them."""
+        new = _new({name})
+{_indented(8, copy)}\
+        return new
+{"".join(map(_property, kinds))}
+
+def _fresh_{name}():
+    """A message of default values, made without the constructor."""
+    new = _new({name})
+{_indented(4, _filled("new", kinds, "", []))}\
+    return new
+
+{name}._FRESH = _fresh_{name}
+'''
 
 
 def wrapper_source(definition: Definition, parts: dict[str, str]) -> str:
     """Class of a service or an action: it holds the classes of its parts and cannot be instantiated."""
     name = definition.name
     what = "Service" if len(definition.parts) == 2 else "Action"
-    return "\n".join(
-        [
-            f"class Metaclass_{name}(type):",
-            f'    """Metaclass of {what.lower()} \'{name}\'."""',
-            "",
-            f"    _TYPE_SUPPORT = _support_{name}",
-            "",
-            "",
-            f"class {name}(metaclass=Metaclass_{name}):",
-            f'    """{what} class \'{name}\'."""',
-            "",
-            *(f"    {attribute} = {value}" for attribute, value in parts.items()),
-            *_indent(_identity(definition)),
-            "",
-            "    def __init__(self):",
-            f"        raise NotImplementedError('{what} classes can not be instantiated')",
-            "",
-        ]
-    )
+    return f'''\
+class Metaclass_{name}(type):
+    """Metaclass of {what.lower()} '{name}'."""
+
+    _TYPE_SUPPORT = _support_{name}
 
 
-def _indent(lines: Lines) -> Lines:
-    return [f"    {line}" if line else line for line in lines]
+class {name}(metaclass=Metaclass_{name}):
+    """{what} class '{name}'."""
+
+{_indented(4, [f"{attribute} = {value}" for attribute, value in parts.items()])}\
+    _TYPE_SUPPORT = _support_{name}
+    _TYPE_NAME = '{definition.full_name}'
+    _DEFINITION = _definition_{name}
+
+    def __init__(self):
+        raise NotImplementedError('{what} classes can not be instantiated')
+'''
 
 
-def _identity(definition: Definition) -> Lines:
-    return [
-        f"_TYPE_SUPPORT = _support_{definition.name}",
-        f"_TYPE_NAME = '{definition.full_name}'",
-        f"_DEFINITION = _definition_{definition.name}",
-    ]
+def _class_property(name: str, about: str, value: str) -> str:
+    return f'''
+    @_property
+    def {name}(cls):
+        """{about}"""
+        return {value}
+'''
 
 
-def _metaclass(definition: Definition, defaults: list[tuple[str, str]]) -> Lines:
-    lines = [
-        f"class Metaclass_{definition.name}(type):",
-        f'    """Metaclass of message \'{definition.name}\'."""',
-        "",
-        f"    _TYPE_SUPPORT = _support_{definition.name}",
-    ]
-    members = [
-        (each.name, f"Message constant '{each.name}'.", literal(each.type, each.value)) for each in definition.constants
-    ]
-    members += [(name, "Return default value of a message field.", fresh) for name, fresh in defaults]
-    for name, text, value in members:
-        lines += _indent(["", "@_property", f"def {name}(cls):", f'    """{text}"""', f"    return {value}"])
-    return [*lines, "", ""]
+def _property(kind: Kind) -> str:
+    return f'''
+    @_property
+    def {kind.name}(self):
+        """Message field '{kind.name}'."""
+        return self._{kind.name}
+
+    @{kind.name}.setter
+    def {kind.name}(self, value):
+        self._{kind.name} = {_stored(kind, "value")}
+'''
 
 
-def _class_head(definition: Definition, defaults: list[tuple[str, str]]) -> Lines:
-    name = definition.name
-    types = {member.name: str(slot_type(member.type)) for member in definition.fields}
-    body = [
-        *_docstring(definition, types),
-        "",
-        *(f"{constant.name} = {literal(constant.type, constant.value)}" for constant in definition.constants),
-        *(f"{default} = {fresh}" for default, fresh in defaults),
-        f"__slots__ = {['_' + member for member in types]!r}",
-        f"_fields_and_field_types = {types!r}",
-        f"SLOT_TYPES = _slot_types_{name}",
-        *_identity(definition),
-        f"_KINDS = _kinds_{name}",
-        "__repr__ = _message_repr",
-        "",
-        "@_classmethod",
-        "def get_fields_and_field_types(cls):",
-        '    """Names of the fields, and their types as text."""',
-        "    return _dict(cls._fields_and_field_types)",
-    ]
-    return [f"class {name}(metaclass=Metaclass_{name}):", *_indent(body)]
+def _indented(by: int, lines: Lines) -> str:
+    return "".join(f"{' ' * by}{line}\n" for line in lines)
 
 
-def _docstring(definition: Definition, types: dict[str, str]) -> Lines:
-    head = f"Message class '{definition.name}'."
-    if not types and not definition.constants:
-        return [f'"""{head}"""']
-    members = [f"    {name}: {type_}" for name, type_ in types.items()]
-    constants = [f"    {constant.name} = {literal(constant.type, constant.value)}" for constant in definition.constants]
-    text = ["", "Fields:", *members] if members else []
-    text += ["", "Constants:", *constants] if constants else []
-    return [f'r"""{head}', *(line.replace('"""', "'''") for line in text), '"""']
-
-
-def _constructor(name: str, kinds: Sequence[Kind]) -> Lines:
-    me = "_self" if any(kind.name == "self" for kind in kinds) else "self"
-    arguments, body = "", []
-    for kind in kinds:
-        default = kind.fresh if kind.shares_default else f"_unset_{name}_{kind.name}"
-        value = kind.construct.format(value=kind.name) or _stored(kind, kind.name)
-        arguments += f"{kind.name}={default}, "
-        given = value if kind.shares_default else f"{kind.fresh} if {kind.name} is {default} else {value}"
-        body.append(f"    {me}._{kind.name} = {given}")
-    head = f"def __init__({me}, {'*, ' if kinds else ''}{arguments}**_unknown):"
-    return ["", head, "    if _unknown:", f"        _refuse_arguments({name}, _unknown)", *body]
+def _docstring(name: str, types: dict[str, str], constants: dict[str, str]) -> str:
+    text = ""
+    if types:
+        text += "\n    Fields:\n" + _indented(8, [f"{each}: {type_}" for each, type_ in types.items()])
+    if constants:
+        text += "\n    Constants:\n" + _indented(8, [f"{each} = {value}" for each, value in constants.items()])
+    text = text.replace('"""', "'''")
+    return f'r"""Message class \'{name}\'.\n{text}    """' if text else f'"""Message class \'{name}\'."""'
 
 
 def _stored(kind: Kind, value: str) -> str:
     checked = f"{kind.check}({value})"
     return f"({value} if {kind.test.format(value=value)} else {checked})" if kind.test else checked
-
-
-def _property(kind: Kind) -> Lines:
-    lines = ["", "@_property", f"def {kind.name}(self):", f'    """Message field \'{kind.name}\'."""']
-    lines += [f"    return self._{kind.name}", "", f"@{kind.name}.setter", f"def {kind.name}(self, value):"]
-    return [*lines, f"    self._{kind.name} = {_stored(kind, 'value')}"]
-
-
-def _wire_copy(name: str, kinds: Sequence[Kind]) -> Lines:
-    lines = [
-        "",
-        "def _wire_copy(self):",
-        '    """Copy that shares nothing, with numbers as transport leaves them."""',
-        f"    new = _new({name})",
-    ]
-    packed: list[tuple[str, str]] = []
-    lines += _indent(_filled("new", kinds, "self", packed))
-    if packed:
-        targets = "".join(f"{target}, " for target, _ in packed)
-        sources = ", ".join(source for _, source in packed)
-        lines.append(f"    {targets}= _unpack_{len(packed)}(_pack_{len(packed)}({sources}))")
-    return [*lines, "    return new"]
 
 
 def _filled(new: str, kinds: Sequence[Kind], old: str, packed: list[tuple[str, str]]) -> Lines:
