@@ -1,4 +1,4 @@
-"""CDR: the bytes of a message as ROS 2 sends and records them, with a 4-byte header that says in which order they stand.
+"""CDR: the bytes of a message as ROS 2 sends and records them, little endian with a 4-byte header.
 
 Facts: the OMG's XCDR1, as Fast-CDR 1 and rosidl_typesupport_fastrtps_cpp of Humble write it. A number lies at a multiple of its
 size; a string is its length with the closing zero, and its UTF-8; a wide string is the number of its UTF-16 units, each in
@@ -8,7 +8,6 @@ four bytes; a sequence is its length and its elements; a message without fields 
 from __future__ import annotations
 
 import struct
-import sys
 from array import array
 from collections.abc import Callable
 from typing import Any
@@ -16,10 +15,8 @@ from typing import Any
 from .checks import TYPE_CODES, numpy_name
 from .model import FieldType
 
-ORDER, UTF16 = ("<", "utf-16-le") if sys.byteorder == "little" else (">", "utf-16-be")
-"""The order of the bytes of this computer, in which messages are written."""
-
-HEADER = bytes((0, ORDER == "<", 0, 0))
+HEADER = b"\0\1\0\0"
+"""Plain CDR, little endian, as are all computers that ROS 2 is made for."""
 
 CODES = {**TYPE_CODES, "bool": "?", "byte": "c"}
 """What `struct` calls the types."""
@@ -31,7 +28,8 @@ class _Input:
     def __init__(self, data: bytes) -> None:
         if len(data) < len(HEADER):
             raise ValueError("the header is missing")
-        self.order = "<" if data[1] & 1 else ">"
+        if not data[1] & 1:
+            raise ValueError("big endian numbers are not read here")
         self._body = memoryview(data)[len(HEADER) :]
         self._place = 0
 
@@ -49,8 +47,6 @@ class _Input:
         """The next so many numbers."""
         found = array(code)
         found.frombytes(self.take(count, found.itemsize))
-        if self.order != ORDER:
-            found.byteswap()
         return found
 
     def end(self) -> None:
@@ -83,7 +79,7 @@ def serialize(message: Any) -> bytes:
 
 
 def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any:
-    """The message of a class that CDR bytes hold, little or big endian, with their 4-byte header.
+    """The message of a class that CDR bytes hold, with their 4-byte header.
 
     Raises TypeError where the class is none of a message, and ValueError where the bytes are cut short, too long or no such
     message.
@@ -150,13 +146,13 @@ def _single(type_: FieldType, element_class: type | None) -> Codec:
         return checked(str(source.take(get_length(source))[:-1], "utf-8"))
 
     def write_wide(body: bytearray, text: str) -> None:
-        units = array("H", text.encode(UTF16))
+        units = array("H", text.encode("utf-16-le"))
         put_length(body, len(units))
         body += array("I", units).tobytes()
 
     def read_wide(source: _Input) -> str:
         units = source.numbers("I", get_length(source))
-        return checked(array("H", units).tobytes().decode(UTF16))
+        return checked(array("H", units).tobytes().decode("utf-16-le"))
 
     def checked(text: str) -> str:
         if bound is not None and len(text) > bound:
@@ -167,14 +163,14 @@ def _single(type_: FieldType, element_class: type | None) -> Codec:
 
 
 def _number(code: str) -> Codec:
-    structs = {order: struct.Struct(order + code) for order in "<>"}
-    pack, size = structs[ORDER].pack, structs[ORDER].size
+    number = struct.Struct(f"<{code}")
+    size, pack, unpack = number.size, number.pack, number.unpack
 
     def write(body: bytearray, value: Any) -> None:
         body += bytes(-len(body) % size) + pack(value)
 
     def read(source: _Input) -> Any:
-        return structs[source.order].unpack(source.take(1, size))[0]
+        return unpack(source.take(1, size))[0]
 
     return write, read
 

@@ -111,35 +111,26 @@ def carriers(action: Definition) -> tuple[Definition, ...]:
 
     Which fields they have follows `rosidl_parser.definition.Action`.
     """
-
-    def message(suffix: str, *fields: Field) -> Definition:
-        text = "".join(f"{field}\n" for field in fields)
-        return Definition(action.package, "action", f"{action.name}_{suffix}", text, action.file, fields)
-
-    def service(suffix: str, *parts: Definition) -> Definition:
-        return Definition(action.package, "action", f"{action.name}_{suffix}", "", action.file, parts=parts)
-
     goal, result, feedback = (
         Field(FieldType(each.name, action.package, folder="action"), each.name.rpartition("_")[2].lower())
         for each in action.parts
     )
     goal_id = Field(FieldType("UUID", "unique_identifier_msgs"), "goal_id")
-    accepted = Field(FieldType("bool"), "accepted")
     stamp = Field(FieldType("Time", "builtin_interfaces"), "stamp")
-    status = Field(FieldType("int8"), "status")
-    return (
-        service(
-            "SendGoal",
-            message("SendGoal_Request", goal_id, goal),
-            message("SendGoal_Response", accepted, stamp),
-        ),
-        service(
-            "GetResult",
-            message("GetResult_Request", goal_id),
-            message("GetResult_Response", status, result),
-        ),
-        message("FeedbackMessage", goal_id, feedback),
-    )
+    messages = {
+        "SendGoal_Request": (goal_id, goal),
+        "SendGoal_Response": (Field(FieldType("bool"), "accepted"), stamp),
+        "GetResult_Request": (goal_id,),
+        "GetResult_Response": (Field(FieldType("int8"), "status"), result),
+        "FeedbackMessage": (goal_id, feedback),
+    }
+
+    def definition(name: str, fields: tuple[Field, ...] = (), parts: tuple[Definition, ...] = ()) -> Definition:
+        text = "".join(f"{field}\n" for field in fields)
+        return Definition(action.package, "action", f"{action.name}_{name}", text, action.file, fields, parts=parts)
+
+    sent, accepted, asked, answered, told = (definition(name, fields) for name, fields in messages.items())
+    return definition("SendGoal", parts=(sent, accepted)), definition("GetResult", parts=(asked, answered)), told
 
 
 class InvalidDefinition(ValueError):
