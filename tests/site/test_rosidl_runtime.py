@@ -25,9 +25,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from interface_cases import built_in, messages
 from rosidl_parser.definition import (
+    AbstractGenericString,
     AbstractNestedType,
     AbstractSequence,
-    AbstractString,
     Array,
     BasicType,
     BoundedSequence,
@@ -164,7 +164,7 @@ def test_the_types_of_fields_can_be_looked_at() -> None:
     polygon = built_in.get("shape_msgs/SolidPrimitive").SLOT_TYPES[1]
     assert isinstance(polygon, BoundedSequence) and polygon.maximum_size == 3
     text = std.String.SLOT_TYPES[0]
-    assert isinstance(text, UnboundedString) and isinstance(text, AbstractString)
+    assert isinstance(text, UnboundedString) and isinstance(text, AbstractGenericString)
 
 
 # -- text as messages ----------------------------------------------------------------------------------------------------

@@ -28,7 +28,6 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 from tf2_ros import (
     Buffer,
-    BufferInterface,
     ConnectivityException,
     ExtrapolationException,
     InvalidArgumentException,
@@ -384,8 +383,6 @@ def test_data_that_nobody_registered_is_refused() -> None:
         TypeError, match=r"do_transform_pose\(\) transforms a Pose, got a PoseStamped: use do_transform_pose_s"
     ):
         tf2_geometry_msgs.do_transform_pose(PoseStamped(), TransformStamped())
-    with pytest.raises(NotImplementedError):
-        BufferInterface().lookup_transform("a", "b", LATEST)
 
 
 def test_the_exceptions_are_tf2s() -> None:

@@ -129,27 +129,15 @@ class AbstractGenericString(AbstractType):
     __slots__ = ()
 
 
-class AbstractString(AbstractGenericString):
-    """Any string of 8-bit characters (UTF-8)."""
-
-    __slots__ = ()
-
-
-class AbstractWString(AbstractGenericString):
-    """Any string of 16-bit characters (UTF-16)."""
-
-    __slots__ = ()
-
-
 @dataclass(frozen=True, slots=True)
-class UnboundedString(AbstractString):
-    """A string of any length."""
+class UnboundedString(AbstractGenericString):
+    """A string of any length, of 8-bit characters (UTF-8)."""
 
     _shown = "string"
 
 
 @dataclass(frozen=True, slots=True)
-class BoundedString(AbstractString):
+class BoundedString(AbstractGenericString):
     """A string of at most `maximum_size` characters."""
 
     maximum_size: int
@@ -157,14 +145,14 @@ class BoundedString(AbstractString):
 
 
 @dataclass(frozen=True, slots=True)
-class UnboundedWString(AbstractWString):
-    """A wide string of any length."""
+class UnboundedWString(AbstractGenericString):
+    """A string of any length, of 16-bit characters (UTF-16)."""
 
     _shown = "wstring"
 
 
 @dataclass(frozen=True, slots=True)
-class BoundedWString(AbstractWString):
+class BoundedWString(AbstractGenericString):
     """A wide string of at most `maximum_size` characters."""
 
     maximum_size: int

@@ -18,7 +18,7 @@ from tf2_py import (
 )
 
 from .buffer import Buffer
-from .buffer_interface import BufferInterface, TransformRegistration, TypeException
+from .buffer_interface import TransformRegistration, TypeException
 from .static_transform_broadcaster import StaticTransformBroadcaster
 from .transform_broadcaster import TransformBroadcaster
 from .transform_listener import TransformListener

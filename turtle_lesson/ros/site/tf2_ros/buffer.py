@@ -18,13 +18,16 @@ from tf2_msgs.srv import FrameGraph
 from tf2_py import BufferCore
 from tf2_py._buffer_core import Question
 
-from .buffer_interface import AT_ONCE, BufferInterface
+from .buffer_interface import TransformRegistration
+
+AT_ONCE = Duration()
+"""A timeout of no time: nothing is waited for."""
 
 PAUSE = 0.02
 """Seconds between two looks for a transform that is waited for, as in tf2_ros."""
 
 
-class Buffer(BufferCore, BufferInterface):
+class Buffer(BufferCore):
     """Keeps the transforms that a TransformListener hears (10 s unless told otherwise), and answers for any two frames.
 
     A node given offers the service `tf2_frames`, which lists all frames as YAML. Where a `timeout` is given, lookups wait that
@@ -33,8 +36,8 @@ class Buffer(BufferCore, BufferInterface):
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
-        BufferCore.__init__(self, cache_time)
-        BufferInterface.__init__(self)
+        super().__init__(cache_time)
+        self.registration = TransformRegistration()
         self._waiting: list[tuple[Future, Callable[[], None]]] = []
         if node is not None:
             self.srv = node.create_service(FrameGraph, "tf2_frames", self._get_frames)
@@ -57,6 +60,15 @@ class Buffer(BufferCore, BufferInterface):
             for _, try_again in self._waiting:
                 try_again()
             self._waiting = [(future, again) for future, again in self._waiting if not _is_over(future)]
+
+    def transform(self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE) -> Any:
+        """Stamped data as seen from the target frame, at the time of its stamp.
+
+        Raises TypeException for a type that is not registered, and TransformException.
+        """
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        return do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout))
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE

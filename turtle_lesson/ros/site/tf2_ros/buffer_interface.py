@@ -1,4 +1,4 @@
-"""What every buffer offers: transforming stamped data, with the functions that packages have registered for their types.
+"""The functions that transform stamped data, which packages register for their types.
 
 Facts: geometry2, tf2_ros_py/tf2_ros/buffer_interface.py.
 """
@@ -9,11 +9,7 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from geometry_msgs.msg import TransformStamped
-from rclpy.duration import Duration
-from rclpy.time import Time
 
-AT_ONCE = Duration()
-"""A timeout of no time: nothing is waited for."""
 Transforming = Callable[[Any, TransformStamped], Any]
 
 
@@ -40,25 +36,3 @@ class TransformRegistration:
         else:
             error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
         raise error
-
-
-class BufferInterface:
-    """Base class of buffers. Times of 0 ask for the latest; a timeout says how long to wait for the transform."""
-
-    def __init__(self) -> None:
-        self.registration = TransformRegistration()
-
-    def transform(self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE) -> Any:
-        """Stamped data as seen from the target frame, at the time of its stamp.
-
-        Raises TypeException for a type that is not registered, and TransformException.
-        """
-        do_transform = self.registration.get(type(object_stamped))
-        header = object_stamped.header
-        return do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout))
-
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = AT_ONCE
-    ) -> TransformStamped:
-        """Where a frame is, seen from another one; for subclasses to say."""
-        raise NotImplementedError
