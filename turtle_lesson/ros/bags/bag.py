@@ -165,10 +165,8 @@ def info_text(bag: Bag) -> str:
 
 def size_text(size: int) -> str:
     """A number of bytes: `512 B`, `4.0 KiB`."""
-    amount, unit = float(size), 0
-    while amount >= 1024 and unit < len(UNITS) - 1:
-        amount, unit = amount / 1024, unit + 1
-    return f"{amount:.{min(unit, 1)}f} {UNITS[unit]}"
+    unit = min((size.bit_length() - 1) // 10, len(UNITS) - 1) if size else 0
+    return f"{size / 1024**unit:.{min(unit, 1)}f} {UNITS[unit]}"
 
 
 def seconds_text(nanoseconds: int) -> str:

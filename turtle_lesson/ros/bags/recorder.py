@@ -106,17 +106,15 @@ class Recorder:
         self._looking = True
         try:
             for name, topic in self._graph.topics().items():
-                if self._selection.takes(name) and (topic.writers or self._selection.unpublished):
-                    self._follow(name, topic)
+                if name in self._heard:
+                    self._compare(self._heard[name], topic)
+                elif self._selection.takes(name) and (topic.writers or self._selection.unpublished):
+                    self._subscribe(name, topic)
         finally:
             self._looking = False
 
-    def _follow(self, name: str, topic: Topic) -> None:
-        heard = self._heard.get(name)
-        if heard is None:
-            if name not in self._refused:
-                self._subscribe(name, topic)
-            return
+    def _compare(self, heard: _Heard, topic: Topic) -> None:
+        """Warn of new publishers that cannot be heard by the subscription that there is."""
         for writer, type_name in topic.writers:
             if writer not in heard.writers and type_name == heard.message_class._TYPE_NAME:
                 heard.writers.append(writer)
@@ -124,11 +122,13 @@ class Recorder:
                 if policy is not None:
                     self._note(
                         "WARN",
-                        f"A new publisher for subscribed topic '{name}' was found offering incompatible QoS ({policy}), but "
-                        "rosbag already subscribed. Messages from this new publisher will not be recorded.",
+                        f"A new publisher for subscribed topic '{heard.name}' was found offering incompatible QoS ({policy}), "
+                        "but rosbag already subscribed. Messages from this new publisher will not be recorded.",
                     )
 
     def _subscribe(self, name: str, topic: Topic) -> None:
+        if name in self._refused:
+            return
         writers = [writer for writer, _ in topic.writers]
         try:
             heard = _Heard(name, _class_of(name, topic.types), EPOCH + self._simulation.now, writers)

@@ -149,8 +149,8 @@ def _open(folder: Path, storage: str) -> Any:
             self.conn.executescript(self.SQLITE_SCHEMA)
             self.cursor = self.conn.cursor()
 
-    make: Any = {"mcap": CheckedMcapWriter, "sqlite3": ExactSqlite3Writer}[storage]
-    plugin = {"mcap": StoragePlugin.MCAP, "sqlite3": StoragePlugin.SQLITE3}[storage]
+    plugin = StoragePlugin[storage.upper()]
+    make: Any = CheckedMcapWriter if plugin is StoragePlugin.MCAP else ExactSqlite3Writer
     try:
         writer = Writer(folder, version=FORMAT_VERSION, storage_plugin=plugin)
         writer.STORAGE_PLUGINS = {plugin: lambda path, mode: make(_Numbered(path), mode)}  # type: ignore[dict-item]
@@ -212,7 +212,7 @@ def _messages_within(message_class: Any, found: dict[str, Any] | None = None) ->
     found = {} if found is None else found
     for kind in message_class._KINDS:
         part = kind.element_class
-        if part is not None and hasattr(part, "_KINDS") and part._TYPE_NAME not in found:
+        if part is not None and part._TYPE_NAME not in found:
             found[part._TYPE_NAME] = part
             _messages_within(part, found)
     return found
