@@ -193,14 +193,7 @@ def _list_kind(member: Field, key: str, message_class: type | None) -> Kind:
         fresh = f"[{class_variable(message_class)}() for _ in _range({type_.size})]"
     else:
         fresh = f"[{literal(type_.base, zero(type_.base))}] * {type_.size}"
-    return Kind(
-        member,
-        check,
-        fresh=fresh,
-        copy=copy,
-        element_class=message_class,
-        objects=objects,
-    )
+    return Kind(member, check, fresh=fresh, copy=copy, element_class=message_class, objects=objects)
 
 
 def class_variable(message_class: type) -> str:

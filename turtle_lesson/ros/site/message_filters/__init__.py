@@ -194,11 +194,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
     """
 
     def __init__(
-        self,
-        fs: Sequence[SimpleFilter],
-        queue_size: int,
-        slop: float,
-        allow_headerless: bool = False,
+        self, fs: Sequence[SimpleFilter], queue_size: int, slop: float, allow_headerless: bool = False
     ) -> None:
         super().__init__(fs, queue_size)
         self.slop = Duration(seconds=slop)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import suppress
 from threading import Thread
-from typing import Any
 
 from rclpy._hints import no_node
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -13,7 +11,6 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
-from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
 
 from .buffer import Buffer
@@ -52,15 +49,13 @@ class TransformListener:
         )
         # A group that lets a callback which waits for a transform be interrupted by the one that brings it.
         self.group = ReentrantCallbackGroup()
-
-        def listen(
-            topic: str, callback: Callable[[TFMessage], None], qos: Any, durability: DurabilityPolicy
-        ) -> Subscription:
-            qos = qos or QoSProfile(depth=100, durability=durability, history=HistoryPolicy.KEEP_LAST)
-            return self.node.create_subscription(TFMessage, topic, callback, qos, callback_group=self.group)
-
-        self.tf_sub = listen(tf_topic, self.callback, qos, DurabilityPolicy.VOLATILE)
-        self.tf_static_sub = listen(tf_static_topic, self.static_callback, static_qos, DurabilityPolicy.TRANSIENT_LOCAL)
+        node, group, last = self.node, self.group, HistoryPolicy.KEEP_LAST
+        qos = qos or QoSProfile(depth=100, durability=DurabilityPolicy.VOLATILE, history=last)
+        static_qos = static_qos or QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=last)
+        self.tf_sub = node.create_subscription(TFMessage, tf_topic, self.callback, qos, callback_group=group)
+        self.tf_static_sub = node.create_subscription(
+            TFMessage, tf_static_topic, self.static_callback, static_qos, callback_group=group
+        )
         if spin_thread:
             self.executor = SingleThreadedExecutor()
             self.dedicated_listener_thread = Thread(target=self._spin)
