@@ -245,23 +245,14 @@ def compiled(source: str, file: str) -> CodeType:
     if (folder := cache_folder()) is None:
         return compile(source, file, "exec")
     path = os.path.join(folder, sha256(f"{file}\n{source}".encode()).hexdigest())
-    code = _read(path)
-    if code is None:
-        code = compile(source, file, "exec")
-        if not sys.dont_write_bytecode:
-            _write(path, marshal.dumps(code))
-    return code
-
-
-def _read(path: str) -> CodeType | None:
-    try:
-        with FileIO(path) as file:  # without a buffer, in a fifth of the time
-            content = file.readall()
-    except OSError:
-        return None
-    if sha256(content[DIGEST:]).digest() != content[:DIGEST]:  # marshal would not always notice
-        return None
-    code: CodeType = marshal.loads(content[DIGEST:])
+    with suppress(OSError), FileIO(path) as kept:  # without a buffer, in a fifth of the time
+        content = kept.readall()
+        if sha256(content[DIGEST:]).digest() == content[:DIGEST]:  # marshal would not always notice
+            code: CodeType = marshal.loads(content[DIGEST:])
+            return code
+    code = compile(source, file, "exec")
+    if not sys.dont_write_bytecode:
+        _write(path, marshal.dumps(code))
     return code
 
 
