@@ -8,6 +8,7 @@ Facts: rosbag2_transport's qos.cpp (adapt_request_to_offers).
 
 from __future__ import annotations
 
+import os
 import re
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -20,7 +21,7 @@ from ..idl.names import did_you_mean, is_hidden
 from ..idl.registry import registry
 from ..sim.simulation import EPOCH, NANOSECONDS
 from . import BagError, UnrecordableType
-from .writer import BagWriter, is_there, profile_of
+from .writer import BagWriter, profile_of
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
@@ -295,7 +296,7 @@ class Recording:
         if topics is not None and not selection.topics:
             raise BagError("topics names no topic: leave it out to record all of them")
         self.path = Path(path).expanduser().absolute()
-        if is_there(self.path):
+        if os.path.lexists(self.path):
             raise BagError(
                 f"Output folder '{path}' already exists. A bag is never overwritten: choose another name, or delete it "
                 f"first, with shutil.rmtree({str(path)!r})"

@@ -13,6 +13,7 @@ itself, then for each other message a line of 80 `=`, a line `MSG: package/Name`
 
 from __future__ import annotations
 
+import os
 import sqlite3
 import weakref
 import zlib
@@ -54,7 +55,7 @@ class BagWriter:
     def __init__(self, folder: Path, storage: str = "mcap") -> None:
         if storage not in STORAGES:
             raise BagError(f"a bag is stored as {' or '.join(STORAGES)}, got {storage!r}")
-        if is_there(folder):
+        if os.path.lexists(folder):
             raise BagError(f"Output folder '{folder}' already exists.")
         self.folder = folder
         self.storage = storage
@@ -93,18 +94,6 @@ class BagWriter:
     def close(self) -> None:
         """Complete the bag. A second call does nothing."""
         self._end()
-
-
-def is_there(folder: Path) -> bool:
-    """Whether there is something of that name. Raises BagError for what no file can be called."""
-    try:
-        folder.stat()  # not exists(), which is False for a name too long since Python 3.14
-    except (FileNotFoundError, NotADirectoryError, UnicodeEncodeError):  # of the last, making it says what to do
-        return False
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or error
-        raise BagError(f"a bag cannot be called {str(folder)[:80]!r}: {why}") from None
-    return True
 
 
 def _open(folder: Path, storage: str) -> Any:
@@ -156,7 +145,8 @@ def _open(folder: Path, storage: str) -> Any:
         writer.STORAGE_PLUGINS = {plugin: lambda path, mode: make(_Numbered(path), mode)}  # type: ignore[dict-item]
         writer.open()
     except (WriterError, OSError, ValueError) as error:
-        raise BagError(f"the bag {folder} cannot be written: {error}") from None
+        why = getattr(error, "strerror", None) or error  # without the name once more
+        raise BagError(f"the bag {str(folder)[:80]} cannot be written: {why}") from None
     return writer
 
 

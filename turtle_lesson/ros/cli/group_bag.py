@@ -7,6 +7,7 @@ the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. Th
 
 from __future__ import annotations
 
+import os
 from argparse import ArgumentTypeError, Namespace
 from contextlib import suppress
 from datetime import UTC, datetime
@@ -70,7 +71,7 @@ READER = (
 def _record(args: Namespace) -> None:
     """Record published messages in a bag."""
     from ..bags.recorder import Selection, checked_names, record
-    from ..bags.writer import BagWriter, is_there
+    from ..bags.writer import BagWriter
 
     topics = [*args.topics, *args.more_topics]
     if bool(args.all) + bool(topics) + bool(args.regex) > 1:
@@ -89,7 +90,7 @@ def _record(args: Namespace) -> None:
         selection = Selection(
             names, args.regex, args.exclude, args.include_hidden_topics, args.include_unpublished_topics
         )
-        bag = BagWriter(folder if is_there(folder) else files.check(folder), args.storage)
+        bag = BagWriter(folder if os.path.lexists(folder) else files.check(folder), args.storage)
     except (BagError, OSError) as error:
         reason = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) else str(error)
         raise _error(reason.replace(str(folder), name)) from None
