@@ -99,13 +99,10 @@ def learners_frames(trace: TracebackType | None) -> list[TracebackType]:
 
 def shorten(trace: TracebackType | None) -> TracebackType | None:
     """A traceback with only the learner's frames; the whole one if there are none."""
-    entries = learners_frames(trace)
-    if not entries:
-        return trace
     shortened: TracebackType | None = None
-    for entry in reversed(entries):
+    for entry in reversed(learners_frames(trace)):
         shortened = TracebackType(shortened, entry.tb_frame, entry.tb_lasti, entry.tb_lineno)
-    return shortened
+    return shortened or trace
 
 
 def shown_path(filename: str) -> str:

@@ -97,13 +97,18 @@ class Window:
         self._shown = dict(self._lines)
 
     def __getattr__(self, name: str) -> object:
-        raise _no_curses(f"window.{name}")
+        return _lacking_in_curses(f"window.{name}")
 
 
-def _no_curses(name: str) -> AttributeError:
-    return AttributeError(
-        f"curses.{name} is not available here: of curses a program has the keys and plain text of one screen"
-    )
+def _lacking(library: str, has: str, error: type[Exception], name: str) -> object:
+    """Refuse what a library has, and not here."""
+    if name.startswith("__"):
+        raise AttributeError(name)
+    raise error(f"{library}.{name} is not available here: of {library} a program has {has}")
+
+
+_lacking_in_curses = partial(_lacking, "curses", "the keys and plain text of one screen", AttributeError)
+_lacking_in_pynput = partial(_lacking, "pynput", "keyboard.Listener, Key and KeyCode", ImportError)
 
 
 def initscr() -> Window:
@@ -135,15 +140,11 @@ def wrapper(function: Callable[..., object], /, *arguments: object, **options: o
 
 def make_curses() -> ModuleType:
     """`curses`, as far as simple programs use it. Keys are never echoed, and no cursor is shown."""
-
-    def lacking(name: str) -> object:
-        raise AttributeError(name) if name.startswith("__") else _no_curses(name)
-
     curses = ModuleType("curses")
     curses.__dict__.update(
         {f"KEY_{name.upper()}": number for name, number in ARROWS.items()},
         **dict.fromkeys(("echo", "noecho", "curs_set"), lambda *_: None),
-        **{"error": error, "window": Window, "initscr": initscr, "wrapper": wrapper, "__getattr__": lacking},
+        **{"error": error, "window": Window, "initscr": initscr, "wrapper": wrapper, "__getattr__": _lacking_in_curses},
         cbreak=partial(_set_line_mode, False),
         nocbreak=partial(_set_line_mode, True),
         endwin=partial(_set_line_mode, True),
@@ -227,12 +228,6 @@ class Listener(threading.Thread):
 def make_pynput() -> ModuleType:
     """`pynput`, with `keyboard` in it."""
     pynput, keyboard = ModuleType("pynput"), ModuleType("pynput.keyboard")
-    keyboard.__dict__.update(Key=Key, KeyCode=KeyCode, Listener=Listener, __getattr__=_lacking)
-    pynput.__dict__.update(keyboard=keyboard, __path__=[], __getattr__=_lacking)
+    keyboard.__dict__.update(Key=Key, KeyCode=KeyCode, Listener=Listener, __getattr__=_lacking_in_pynput)
+    pynput.__dict__.update(keyboard=keyboard, __path__=[], __getattr__=_lacking_in_pynput)
     return pynput
-
-
-def _lacking(name: str) -> object:
-    if name.startswith("__"):
-        raise AttributeError(name)
-    raise ImportError(f"{name} is not available here: of pynput a program has keyboard.Listener, Key and KeyCode")

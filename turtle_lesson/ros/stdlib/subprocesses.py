@@ -62,8 +62,8 @@ class WorldPopen(_Real):
             target, name=os.path.basename(argv[0]) or "program", argv=argv, stdout=out, stderr=err, environ=given.get("env")
         )  # fmt: skip
         self.pid = self._process.pid
-        if not any(given.get(name) for name in _OWN_TERMINAL):
-            parent.followers.append(self._process)
+        if not any(given.get(name) for name in ("start_new_session", "preexec_fn", "process_group")):
+            parent.followers.append(self._process)  # else Ctrl-C does not reach it (preexec_fn is os.setsid, as a rule)
 
     def _stream(self, wanted: Any, inherited: Any, text: bool) -> tuple[Any, Any]:
         """Where the child prints, and what its parent reads."""
@@ -111,9 +111,6 @@ class WorldPopen(_Real):
 
 
 WorldPopen.__name__ = "Popen"
-
-_OWN_TERMINAL = ("start_new_session", "preexec_fn", "process_group")
-"""With any of these a child is out of reach of its parent's Ctrl-C (preexec_fn is os.setsid, as a rule)."""
 
 
 def _wait_until(predicate: Callable[[], bool], seconds: float | None = None) -> bool:
