@@ -202,6 +202,15 @@ def test_one_thread_of_many_helps_all(world: World) -> None:
     assert finishes(world, program)
 
 
+def test_what_the_threads_of_a_pool_wait_for(why: Why) -> None:
+    def program() -> None:
+        pool = ThreadPoolExecutor(1, "pool")
+        pool.submit(int).result()
+        threading.Event().wait()
+
+    assert why(program).endswith("Its other threads are waiting as well: pool_0 waits in SimpleQueue.get().")
+
+
 def test_a_lock_that_another_thread_releases(world: World) -> None:
     def program() -> None:
         lock = threading.Lock()

@@ -196,7 +196,7 @@ def _called_in(frame: FrameType | None) -> str:
     found = ""
     while frame is not None:
         name, function = frame.f_globals.get("__name__", ""), frame.f_code.co_qualname
-        if name in _ROOMS:
+        if name in _ROOMS and function not in ("Thread.run", "_worker"):  # by which a pool's thread came there
             found = _PUBLIC.get(function, function)
         elif name.startswith(_OURS):
             found = _PUBLIC.get(function, found)
