@@ -34,12 +34,9 @@ def _clock(origin: int, *, whole: bool = False) -> Callable[..., float]:
 
 
 CLOCKS: dict[str, Callable[..., Any]] = {
-    "time": _clock(EPOCH),
-    "monotonic": _clock(0),
-    "perf_counter": _clock(0),
-    "time_ns": _clock(EPOCH, whole=True),
-    "monotonic_ns": _clock(0, whole=True),
-    "perf_counter_ns": _clock(0, whole=True),
+    name + unit: _clock(EPOCH if name == "time" else 0, whole=unit == "_ns")
+    for name in ("time", "monotonic", "perf_counter")
+    for unit in ("", "_ns")
 }
 """By name in `time`, the clocks; `time.sleep` is in `threads.py`."""
 

@@ -115,10 +115,7 @@ def _method(owner: str, function: Callable[..., Any], why: str, name: str = "") 
     name = name or function.__name__
 
     def ours(real: Any) -> Any:
-        def method(self: Any, *arguments: Any, **keywords: Any) -> Any:
-            return function(real, self, *arguments, **keywords)
-
-        return named(method, name, real)
+        return named(lambda self, *arguments, **keywords: function(real, self, *arguments, **keywords), name, real)
 
     return Patch(owner, name, ours, why)
 
