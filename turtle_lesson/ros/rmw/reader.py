@@ -80,10 +80,6 @@ class Reader(End):
             self.arrivals.append(now)
         self.wake()
 
-    def take(self) -> Any:
-        """The oldest message that waits."""
-        return self.queue.popleft()
-
     def _expire(self, wire: Any) -> None:
         """A message has become too old: nobody gets it any more, if it still waits."""
         for index, waiting in enumerate(self.queue):

@@ -51,10 +51,6 @@ class ServerEnd:
             self.arrivals.append(request.client.simulation.now)
         self.wake()
 
-    def take(self) -> Request:
-        """The oldest request."""
-        return self.queue.pop(0)
-
 
 class ClientEnd:
     """A client's end: answers that have arrived, as (number of the request, response).
@@ -111,10 +107,6 @@ class ClientEnd:
             simulation.at(simulation.now + self.latency, self._receive, answer)
         else:
             self._line_to(self._receive, self.node).send(answer, simulation.now)
-
-    def take(self) -> tuple[int, Any]:
-        """The oldest answer, with the number of its request."""
-        return self.queue.popleft()
 
     def use(self, conditions: Conditions | None) -> None:
         """Have requests and answers travel under these conditions from now on; None for the usual ones.

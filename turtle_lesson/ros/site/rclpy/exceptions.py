@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from turtle_lesson.ros.rmw import names
 from turtle_lesson.ros.sim.errors import WorldClosed
 
-from ._rclpy_pybind11 import (
-    InvalidHandle,
-    RCLError,
-)
+from ._rclpy_pybind11 import InvalidHandle, RCLError
 from ._rclpy_pybind11 import NodeNameNonExistentError as NodeNameNonExistentError
 from ._rclpy_pybind11 import RCLInvalidROSArgsError as RCLInvalidROSArgsError
 from ._rclpy_pybind11 import TimerCancelledError as TimerCancelledError

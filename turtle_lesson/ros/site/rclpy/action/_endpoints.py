@@ -131,7 +131,11 @@ class ActionEndpoint(Entity):
 
     def take_data(self) -> dict[str, Any]:
         """Take one thing of each kind that has arrived."""
-        return {kind: end.take() for kind, end in self._arrived.items() if end.queue}
+        queues = {kind: end.queue for kind, end in self._arrived.items() if end.queue}
+        taken = {kind: queue[0] for kind, queue in queues.items()}
+        for queue in queues.values():
+            del queue[0]
+        return taken
 
     async def execute(self, taken_data: dict[str, Any]) -> None:
         """Do what the things that were taken ask for."""
