@@ -26,7 +26,7 @@ from .writer import BagWriter, profile_of
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
 
-    from ..rmw.topic import Topic
+    from ..rmw.graph import Topic
     from ..rmw.writer import Writer
     from ..runtime.world import World
     from ..sim.process import Process

@@ -11,8 +11,7 @@ from .transport import nobody
 
 if TYPE_CHECKING:
     from ..sim.simulation import Simulation
-    from .graph import NodeEntry
-    from .topic import Topic
+    from .graph import NodeEntry, Topic
 
 
 # -- end ----------------------------------------------------------------------------------------------------------

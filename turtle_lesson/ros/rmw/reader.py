@@ -10,8 +10,7 @@ from .endpoint import LIVELINESS, End, Quality, Tally
 from .transport import nobody
 
 if TYPE_CHECKING:
-    from .graph import NodeEntry
-    from .topic import Topic
+    from .graph import NodeEntry, Topic
     from .writer import Writer
 
 

@@ -12,8 +12,7 @@ from .reader import Reader
 from .transport import BestEffortLine, ReliableLine
 
 if TYPE_CHECKING:
-    from .graph import NodeEntry
-    from .topic import Topic
+    from .graph import NodeEntry, Topic
 
 
 class Writer(End):

@@ -7,18 +7,17 @@ is ever polled.
 from __future__ import annotations
 
 import inspect
+from collections import deque
 from collections.abc import Callable
 from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.rmw.trace import CHUNK
+from turtle_lesson.ros.rmw.trace import CHUNK, PLUMBING, Callback, Trace
 
 from ._hints import explain_call
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, begin_of
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.rmw.trace import Callback
-
     from .executors import Executor
     from .node import Node
 
@@ -230,3 +229,37 @@ class Entity(Destroyable):
         if self._node is not None and self in self._node._ros_waiting_entities:
             self._node._ros_waiting_entities.remove(self)
         self.callback_group.entities.discard(self)
+
+
+# -- how callbacks get into the world's trace --------------------------------------------------------------------------
+
+KINDS = {TIMER: "timer", SUBSCRIPTION: "subscription", SERVICE: "service"}
+
+
+def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
+    """Give a callback of the program's its place in the trace, unless it has one from another executor."""
+    kind, callback, entry = KINDS.get(entity._kind), entity.callback, node._ros_entry
+    of_rclpy = type(getattr(callback, "__self__", None)).__module__.startswith("rclpy.")
+    if kind is None or callback is None or entry.hidden or (of_rclpy and kind != "service"):
+        return
+    end = entity._reader if kind == "subscription" else entity._server if kind == "service" else None
+    source = "" if end is None else end.topic.name if kind == "subscription" else end.name
+    if source in PLUMBING or entity._traced is not None:
+        return
+    name = source.rpartition("/")[2] if of_rclpy else name_of(callback)  # such as get_parameters
+    period = entity._period if kind == "timer" else 0
+    entity._traced = Callback(entry.full_name, name, kind, source, period, entry.process.pid, entity._is_async)
+    trace.callbacks.append(entity._traced)
+    if end is not None:  # note beside each message or request that waits when it came
+        arrivals = deque([trace.simulation.now] * len(end.queue), maxlen=getattr(end.queue, "maxlen", None))
+        end.arrivals = entity._traced.arrivals = arrivals
+        getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
+    elif entity._time is not trace.simulation:
+        entity._traced.arrivals = deque()  # a timer whose ticks are in another time is ready when it begins
+
+
+def name_of(function: Callable[..., Any] | None) -> str:
+    """What a learner calls a callback."""
+    function = getattr(function, "func", function)  # of a functools.partial
+    name = getattr(function, "__name__", type(function).__name__)
+    return "lambda" if name == "<lambda>" else name

@@ -6,10 +6,9 @@ import zlib
 from collections.abc import Iterable
 from typing import Any
 
-from turtle_lesson.ros.rmw.graph import NodeEntry
+from turtle_lesson.ros.rmw.graph import NodeEntry, Topic
 from turtle_lesson.ros.rmw.names import Remap, remap
 from turtle_lesson.ros.rmw.reader import Reader
-from turtle_lesson.ros.rmw.topic import Topic
 from turtle_lesson.ros.rmw.writer import Writer
 from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain

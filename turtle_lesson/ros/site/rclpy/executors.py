@@ -28,10 +28,9 @@ from turtle_lesson.ros.stdlib.threads import number_of_pool
 
 from ._blocking import drive, drives_the_simulation, spin_live
 from ._deadlock import executor_of_worker, is_notebook, others_may_act, why_never_done
-from ._entity import NO_TURN, WAITABLE, Entity
+from ._entity import NO_TURN, WAITABLE, Entity, trace_entity
 from ._hints import explain_call, no_node
 from ._state import RclpyState
-from ._tracing import trace_entity
 from .context import Context
 from .exceptions import not_valid, refuse_destroyed
 from .task import Future, Task, at_once

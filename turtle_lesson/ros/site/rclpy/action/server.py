@@ -22,7 +22,7 @@ from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.sim.errors import print_error
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 
-from .._tracing import name_of
+from .._entity import name_of
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
