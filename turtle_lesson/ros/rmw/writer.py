@@ -149,10 +149,8 @@ class Writer(End):
         for end in (self, reader):
             end.will_happen(MATCHED, 1, 1)
         reader.will_happen(LIVELINESS, *((1, 0) if self.alive else (0, 1)))
-        if reader.quality.latched and reader.quality.reliable:
-            self._greet(reader)  # those who come too late have to ask for it, as for what was lost
-
-    def _greet(self, reader: Reader) -> None:
+        if not (reader.quality.latched and reader.quality.reliable):
+            return  # those who come too late have to ask for it, as for what was lost
         self._forget_expired()
         line = self._lines.get(reader)
         for sent, wire in self._kept or ():

@@ -112,8 +112,8 @@ class WakeUp:
         self.woken = True
         self.strand.simulation.wake(self.strand)
 
-    def wait(self, deadline: int | None, *, only_from_within: bool = True) -> bool:
-        """Wait until the deadline (ns of the simulation; None forever); whether `wake` was called before.
+    def wait(self, deadline: int | None, *, only_from_within: bool = True) -> None:
+        """Wait until the deadline (ns of the simulation; None forever), or until `wake` is called.
 
         `only_from_within`: only another thread of this process can call `wake`.
         """

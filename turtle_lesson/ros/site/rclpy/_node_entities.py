@@ -40,7 +40,6 @@ class NodeEntities(NodeGraph):
         self._ros_publishers: list[Publisher] = []
         self._ros_waiting_entities: list[Entity] = []
         self._ros_default_callback_group = MutuallyExclusiveCallbackGroup()
-        self._ros_rate_group: CallbackGroup | None = None
         self._ros_clock = ROSClock()
 
     def _ros_keep(self, entity: Any) -> Any:
@@ -205,10 +204,8 @@ class NodeEntities(NodeGraph):
         """Something to sleep by, `frequency` times a second."""
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
-        if self._ros_rate_group is None:
-            self._ros_rate_group = ReentrantCallbackGroup()
         callback: Any = None  # the rate brings its own
-        timer = self.create_timer(1.0 / frequency, callback, self._ros_rate_group, clock)
+        timer = self.create_timer(1.0 / frequency, callback, ReentrantCallbackGroup(), clock)
         return Rate(timer, context=self._ros_context)
 
     def _ros_destroy(self, entity: Any) -> bool:

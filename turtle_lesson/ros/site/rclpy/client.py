@@ -120,25 +120,17 @@ class Client(Entity):
     def _answer_to(self, future: Future, strand: Strand, timeout_sec: float | None = None) -> Any:
         """Wait for the result of a future that `call_async` returned; None after the timeout (s)."""
         try:
-            if is_notebook(strand.process) and not self._taken_elsewhere(strand):
-                self._spin_for(future, timeout_sec)
-            else:
+            if not is_notebook(strand.process) or self._taken_elsewhere(strand):
                 self._wait(future, strand, timeout_sec)
+            elif self._executor is not None:
+                self._executor.spin_until_future_complete(future, timeout_sec)
+            else:
+                from . import spin_until_future_complete
+
+                spin_until_future_complete(self._of_node, future, timeout_sec=timeout_sec)
         finally:
             self._waiting.pop(future._request_number, None)
         return future.result()
-
-    def _spin_for(self, future: Future, timeout_sec: float | None) -> None:
-        """Take the answer oneself. A node that nobody spins is only spun for this long."""
-        from . import get_global_executor
-
-        executor = self._executor or get_global_executor()
-        added = executor.add_node(self._of_node)
-        try:
-            executor.spin_until_future_complete(future, timeout_sec)
-        finally:
-            if added:
-                executor.remove_node(self._of_node)
 
     def _wait(self, future: Future, strand: Any, timeout_sec: float | None) -> None:
         simulation = self._end.simulation
