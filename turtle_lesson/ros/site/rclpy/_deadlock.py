@@ -17,7 +17,7 @@ from turtle_lesson.ros.sim.process import Process
 from turtle_lesson.ros.sim.strand import running_strand
 from turtle_lesson.ros.stdlib.deadlock import hints
 
-from ._entity import CLIENT, WAITABLE, Entity
+from ._entity import Entity
 from ._hints import did_you_mean
 from ._state import RclpyState
 
@@ -217,7 +217,7 @@ def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
     """Whether a callback of the program's own may be called by an entity, although these groups are taken."""
     if entity._executor is None or taken(entity.callback_group):
         return False
-    if entity._kind in (CLIENT, WAITABLE):
+    if hasattr(entity, "_waiting"):  # a client, of services or actions: the answers that it waits for
         return bool(entity._waiting)
     return not (getattr(entity.callback, "__module__", None) or "").startswith("rclpy.")
 

@@ -124,7 +124,6 @@ class EventHandler(Entity):
     """Waits for events of one type of a publisher or subscription, `parent_impl`."""
 
     _kind = WAITABLE
-    _is_default = False
 
     def __init__(
         self, *, callback_group: CallbackGroup, callback: Callable[[Any], Any], event_type: IntEnum, parent_impl: Any
@@ -141,11 +140,6 @@ class EventHandler(Entity):
 
     def __repr__(self) -> str:
         return f"<EventHandler of {self.event_type.name}>"
-
-    @property
-    def _waiting(self) -> bool:
-        """Whether it may ever call something of the program's own."""
-        return not self._is_default
 
     def _has_work(self) -> bool:
         return self._tally.news
@@ -174,17 +168,13 @@ class _EventCallbacks:
             policy = qos_policy_name_from_kind(event.last_policy_kind)
             get_logger(entity.logger_name).warning(self._mismatch.format(topic=topic_name, policy=policy))
 
-        handlers = []
-        for event_type, (name, _) in self._events.items():
-            callback = getattr(self, name)
-            stands_in = not callback and self.use_default_callbacks and name == "incompatible_qos"
-            if callback or stands_in:
-                handler = EventHandler(
-                    callback_group=callback_group, callback=callback or warn, event_type=event_type, parent_impl=entity
-                )
-                handler._is_default = stands_in
-                handlers.append(handler)
-        return handlers
+        stand_ins = {"incompatible_qos": warn} if self.use_default_callbacks else {}
+        chosen = [(kind, getattr(self, name) or stand_ins.get(name)) for kind, (name, _) in self._events.items()]
+        return [
+            EventHandler(callback_group=callback_group, callback=callback, event_type=kind, parent_impl=entity)
+            for kind, callback in chosen
+            if callback
+        ]
 
 
 @dataclass(kw_only=True, eq=False)

@@ -119,8 +119,6 @@ QoSReliabilityPolicy = ReliabilityPolicy
 QoSDurabilityPolicy = DurabilityPolicy
 QoSLivelinessPolicy = LivelinessPolicy
 
-NO_DEPTH = "A zero depth with KEEP_LAST doesn't make sense; no data could be stored."
-
 
 class InvalidQoSProfileException(Exception):
     """A profile contradicts itself or lacks something."""
@@ -182,7 +180,7 @@ class QoSProfile:
             if value < 0:
                 raise ValueError("history depth must be greater than or equal to zero")
             if value == 0 and self.history == HistoryPolicy.KEEP_LAST and "depth" in vars(self):
-                warnings.warn(NO_DEPTH, stacklevel=3)
+                warnings.warn("A zero depth with KEEP_LAST doesn't make sense; no data could be stored.", stacklevel=3)
         object.__setattr__(self, name, value)
 
     def __eq__(self, other: object) -> bool:
