@@ -32,46 +32,25 @@ Run = Callable[..., list[Any]]
 Capture = pytest.CaptureFixture[str]
 
 
-class Priority(Executor):
-    """Runs the callbacks of some nodes before those of others."""
+class Noting(Executor):
+    """Notes whose callbacks it runs."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.first: list[Node] = []
         self.ran: list[str] = []
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        for nodes, patience in ((self.first, 0.0), (None, timeout_sec)):
-            try:
-                handler, _, node = self.wait_for_ready_callbacks(timeout_sec=patience, nodes=nodes)
-            except TimeoutException:
-                continue
-            self.ran.append(node.get_name())
-            handler()
+        try:
+            handler, _, node = self.wait_for_ready_callbacks(timeout_sec=timeout_sec)
+        except TimeoutException:
             return
-
-
-def test_an_executor_may_prefer_some_nodes(run: Run) -> None:
-    def program(found: list[Any]) -> None:
-        rclpy.init(args=[])
-        executor = Priority()
-        for name in ("common", "urgent"):
-            node = rclpy.create_node(name)
-            executor.add_node(node)
-            for _ in range(2):
-                node.create_timer(0.1, lambda name=name: None)
-        executor.first = [executor.get_nodes()[1]]
-        time.sleep(0.15)
-        for _ in range(5):
-            executor.spin_once(timeout_sec=0.0)
-        found += executor.ran
-
-    assert run(program) == ["urgent", "urgent", "common", "common"]
+        self.ran.append(node.get_name())
+        handler()
 
 
 def test_an_executor_of_ones_own_spins_too_and_in_a_cell_as_well(world: World) -> None:
     rclpy.init(args=[])
-    executor = Priority()
+    executor = Noting()
     node = rclpy.create_node("n")
     executor.add_node(node)
     node.create_timer(0.5, lambda: None)
@@ -88,6 +67,8 @@ def test_waiting_for_a_callback_ends_with_a_timeout_or_when_a_condition_holds(ru
     def program(found: list[Any]) -> None:
         rclpy.init(args=[])
         executor = SingleThreadedExecutor()
+        with pytest.raises(NotImplementedError, match="nodes is not available here"):
+            executor.wait_for_ready_callbacks(nodes=[rclpy.create_node("n")])
         patience = TimeoutObject(5.0)
         patience.timeout = 0.5
         for options in ({"timeout_sec": patience}, {"condition": lambda: True}):
@@ -159,7 +140,7 @@ def test_an_executor_that_counts_what_it_runs_and_stops_itself(run: Run) -> None
 def test_what_a_callback_raises_stays_with_its_handler_until_it_is_asked_for(run: Run) -> None:
     def program(found: list[Any]) -> None:
         rclpy.init(args=[])
-        node, executor = rclpy.create_node("n"), Priority()
+        node, executor = rclpy.create_node("n"), Noting()
         executor.add_node(node)
 
         def stumble() -> None:

@@ -6,6 +6,7 @@ import inspect
 import os
 import weakref
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.runtime.world import current_process
@@ -171,10 +172,8 @@ class Context:
 
     def forget_wake(self, callback: Callable[[], Any]) -> None:
         """No longer call what was given to `wake_on_shutdown`."""
-        for place in reversed(range(len(self._waiting))):
-            if self._waiting[place]() == callback:
-                del self._waiting[place]
-                return
+        with suppress(ValueError):  # the context has ended
+            self._waiting.remove(_reference(callback))
 
     def track_node(self, node: Any) -> None:
         """Remember a node, so that it leaves the graph when the process ends."""

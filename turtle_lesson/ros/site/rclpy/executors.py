@@ -29,7 +29,7 @@ from turtle_lesson.ros.stdlib.threads import number_of_pool
 from ._blocking import drive, drives_the_simulation, spin_live
 from ._deadlock import executor_of_worker, is_notebook, others_may_act, why_never_done
 from ._entity import NO_TURN, WAITABLE, Entity, trace_entity
-from ._hints import explain_call, no_node
+from ._hints import explain_call, no_node, refuse_unbuilt
 from ._state import RclpyState
 from .context import Context
 from .exceptions import not_valid, refuse_destroyed
@@ -475,22 +475,13 @@ class Executor:
     ) -> tuple[Task, Entity | None, Node | None]:
         """What an executor of one's own builds on: the next ready callback as a task to be called, with its entity.
 
-        Of `nodes`, if given, or of all nodes. Raises TimeoutException, ConditionReachedException, ShutdownException or
-        ExternalShutdownException.
+        Raises TimeoutException, ConditionReachedException, ShutdownException or ExternalShutdownException, and
+        NotImplementedError where only some `nodes` are wanted.
         """
+        refuse_unbuilt(nodes=nodes)
         strand = running_strand()
         assert strand is not None
-        deadline = self._deadline(timeout_sec)
-        others: list[Entity] = []
-        try:
-            job = self._next(strand, deadline, condition)
-            while job is not None and nodes is not None and job._node is not None and job._node not in nodes:
-                job.callback_group.ending_execution(job)
-                others.append(job)
-                job = self._next(strand, deadline, condition)
-        finally:
-            for entity in others:
-                entity._signal()
+        job = self._next(strand, self._deadline(timeout_sec), condition)
         if job is None:
             raise ConditionReachedException if condition() else TimeoutException
         if isinstance(job, Task):
