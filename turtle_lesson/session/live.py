@@ -63,10 +63,10 @@ class CellNodes:
         from rclpy.executors import SingleThreadedExecutor
         from rclpy.task import Future
 
-        executor = next((node._ros_executor for node in nodes if node._ros_executor is not None), None)
+        executor = next(filter(None, (node._ros_assignment.executor for node in nodes)), None)
         if executor is None:
             executor = self._executor = self._executor or SingleThreadedExecutor()
-        added = [node for node in nodes if node._ros_executor is None and executor.add_node(node)]
+        added = [node for node in nodes if node._ros_assignment.executor is None and executor.add_node(node)]
         try:
             before = self._world.now
             seconds = (end - before) / NANOSECONDS

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True, eq=False)
 class Request:
-    """A request on its way: who asked, the number it has there, the message, and what a trace keeps of the call."""
+    """A request on its way: its client, the number it has there, the message, and what a trace keeps of the call."""
 
     client: ClientEnd
     number: int

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from ..sim.simulation import Simulation
     from .graph import NodeEntry
+    from .service import ClientEnd
 
 
 # -- trace --------------------------------------------------------------------------------------------------------
@@ -68,7 +69,7 @@ class Trace:
         self.made[topic, node.full_name] = self.now
         return times.append
 
-    def asked(self, client: Any, message: Any) -> Call:
+    def asked(self, client: ClientEnd, message: Any) -> Call:
         """A client asks."""
         node = client.node
         words = node.process.argv if node.hidden else []

@@ -76,11 +76,11 @@ class Line:
         return False
 
     def close(self) -> None:
-        """The one who would get the messages has gone: deliver nothing more."""
+        """The subscription has gone: deliver nothing more."""
         self._deliver = self._told = nobody
 
     def linger(self) -> None:
-        """The one who sends has gone: what is under way still arrives."""
+        """The publisher has gone: what is under way still arrives."""
 
     def _way(self) -> int:
         """How long a transmission takes now, in ns: never less than in the usual network."""

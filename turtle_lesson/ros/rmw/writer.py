@@ -106,7 +106,7 @@ class Writer(End):
             line.send(message._wire_copy(), self._simulation.now)
 
     def _keep(self, message: Any) -> None:
-        """Keep a message for those who join late."""
+        """Keep a message for subscriptions that join late."""
         assert self._kept is not None
         self._forget_expired()
         self._kept.append((self._simulation.now, message._wire_copy()))
@@ -142,7 +142,7 @@ class Writer(End):
         return len(self.readers)
 
     def meet(self, reader: Reader) -> None:
-        """Send to this reader, too: from now on, and what has been kept for those who join late."""
+        """Send to this reader, too: from now on, and what has been kept for subscriptions that join late."""
         self.readers = (*self.readers, reader)
         self._choose_way(reader)
         self._plan()
@@ -150,7 +150,7 @@ class Writer(End):
             end.will_happen(MATCHED, 1, 1)
         reader.will_happen(LIVELINESS, *((1, 0) if self.alive else (0, 1)))
         if not (reader.quality.latched and reader.quality.reliable):
-            return  # those who come too late have to ask for it, as for what was lost
+            return  # a late subscription asks for what was kept, as for what was lost
         self._forget_expired()
         line = self._lines.get(reader)
         for sent, wire in self._kept or ():

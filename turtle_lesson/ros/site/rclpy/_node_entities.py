@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     from ._entity import Entity
     from .context import Context
-    from .executors import Executor
 
 
 class NodeEntities(NodeGraph):
@@ -34,7 +33,6 @@ class NodeEntities(NodeGraph):
 
     def _ros_setup_entities(self, context: Context) -> None:
         self._ros_context = context
-        self._ros_executor: Executor | None = None
         self._ros_assignment = Assignment()
         self._ros_made = 0
         self._ros_publishers: list[Publisher] = []
@@ -47,8 +45,8 @@ class NodeEntities(NodeGraph):
         entity._number, entity._node = self._ros_made, self
         entity._assign(self._ros_assignment)
         self._ros_waiting_entities.append(entity)
-        if self._ros_executor is not None:
-            self._ros_executor._adopt(entity, self)  # type: ignore[arg-type]
+        if self._ros_assignment.executor is not None:
+            self._ros_assignment.executor._adopt(entity, self)  # type: ignore[arg-type]
         else:
             self._ros_assignment.missed[entity] = None
         return entity
@@ -211,7 +209,6 @@ class NodeEntities(NodeGraph):
     def _ros_destroy(self, entity: Any) -> bool:
         if entity not in self._ros_waiting_entities:
             return False
-        self._ros_waiting_entities.remove(entity)
         entity.destroy()
         return True
 

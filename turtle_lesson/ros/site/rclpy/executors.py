@@ -119,16 +119,15 @@ class Executor:
             refuse_destroyed(node._ros_simulation)
         if not self._context.initialized:
             raise not_valid("guard_condition")
-        if node._ros_executor is not None:
-            node._ros_executor.remove_node(node)
+        assignment = node._ros_assignment
+        if assignment.executor is not None:
+            assignment.executor.remove_node(node)
+        assignment.executor = self
         self._nodes.append(node)
-        node._ros_executor = self
         comes_again = node._ros_place == (self, self._nodes_seen)  # as it does with each rclpy.spin_once
         if not comes_again:
             self._nodes_seen += 1
             node._ros_place = (self, self._nodes_seen)
-        assignment = node._ros_assignment
-        assignment.executor = self
         if assignment.missed or not comes_again:
             looked_at = list(assignment.missed) if comes_again else list(node._ros_waiting_entities)
             assignment.missed.clear()
@@ -150,7 +149,6 @@ class Executor:
         """No longer run this node's callbacks."""
         if node in self._nodes:
             self._nodes.remove(node)
-            node._ros_executor = None
             node._ros_assignment.executor = None
 
     def get_nodes(self) -> list[Node]:
@@ -473,7 +471,7 @@ class Executor:
         nodes: list[Node] | None = None,
         condition: Callable[[], bool] = lambda: False,
     ) -> tuple[Task, Entity | None, Node | None]:
-        """What an executor of one's own builds on: the next ready callback as a task to be called, with its entity.
+        """What a program's own executor builds on: the next ready callback as a task to be called, with its entity.
 
         Raises TimeoutException, ConditionReachedException, ShutdownException or ExternalShutdownException, and
         NotImplementedError where only some `nodes` are wanted.

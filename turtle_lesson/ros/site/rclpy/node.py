@@ -185,7 +185,7 @@ class Node(NodeParameters):
     @property
     def executor(self) -> Executor | None:
         """The executor that runs the node's callbacks, or was the last to do so, if any."""
-        return self._ros_executor or self._ros_place[0]
+        return self._ros_assignment.executor or self._ros_place[0]
 
     @executor.setter
     def executor(self, new_executor: Executor | None) -> None:
@@ -196,7 +196,6 @@ class Node(NodeParameters):
         self._ros_place = (None, 0)
         if new_executor is not None:
             new_executor.add_node(self)
-            self._ros_executor = new_executor
 
     @property
     def handle(self) -> Handle:
@@ -247,8 +246,8 @@ class Node(NodeParameters):
         """What `destroy_node` does, also where a subclass has a `destroy_node` of its own."""
         if self._ros_destroyed:
             return
-        if self._ros_executor is not None:
-            self._ros_executor.remove_node(self)
+        if self._ros_assignment.executor is not None:
+            self._ros_assignment.executor.remove_node(self)
         for publisher in list(self._ros_publishers):
             self.destroy_publisher(publisher)
         for entity in list(self._ros_waiting_entities):

@@ -141,7 +141,7 @@ class TimeSource:
         node, subscription = self._node, self._clock_sub
         if node is None or subscription is None:
             return
-        if somebody_spins(node._ros_executor, strand) and not holds_group(subscription.callback_group):
+        if somebody_spins(node._ros_assignment.executor, strand) and not holds_group(subscription.callback_group):
             return
         raise NeverWakes(
             f"this sleep would never end: {node!r} follows {CLOCK_TOPIC} (use_sim_time is true), and cannot hear it "

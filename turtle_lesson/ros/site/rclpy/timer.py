@@ -251,7 +251,7 @@ class Rate:
 
     def _wait(self, strand: Strand) -> None:
         if self._ticked:
-            self._ticked = bool(self._sleepers)  # the last one who leaves clears the tick
+            self._ticked = bool(self._sleepers)  # the last caller that leaves clears the tick
             return
         executor = self._timer._executor
         if is_notebook(strand.process) and (executor is None or not executor._spun_by_another(strand)):

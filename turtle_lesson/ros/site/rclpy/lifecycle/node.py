@@ -123,9 +123,7 @@ class LifecycleNodeMixin(ManagedEntity):
     """
 
     if TYPE_CHECKING:
-        create_publisher: Any
         default_callback_group: CallbackGroup
-        destroy_publisher: Any
         get_logger: Any
 
     def __init__(
