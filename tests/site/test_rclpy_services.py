@@ -411,7 +411,7 @@ def test_a_cell_simply_calls(world: World) -> None:
     assert client.wait_for_service(timeout_sec=1.0)
     assert client.call(Request(a=1, b=2)) == Response(sum=3)
     future = client.call_async(Request(a=3, b=4))
-    rclpy.spin_until_future_complete(client._of_node, future)
+    rclpy.spin_until_future_complete(client._node, future)
     assert future.result().sum == 7
 
 

@@ -111,7 +111,7 @@ def why_never_answered(client: Client, strand: Strand) -> str:
     servers = client._servers()
     if not servers:
         end = client._end
-        return why_nobody_offers("service", end.name, end.type_name, client._of_node._ros_graph.services())
+        return why_nobody_offers("service", end.name, end.type_name, client._node._ros_graph.services())
     drives = is_notebook(strand.process) and not callbacks_around()
     if drives and client._end.cut_off:
         return (
@@ -142,7 +142,7 @@ def _why_not_taken(client: Client, strand: Strand, drives: bool) -> str:
     if callbacks_around():
         return f"the thread that would take the answer is the one that waits here. {advice_for_await(words)}"
     return (
-        f"no executor spins {client._of_node!r} meanwhile, so nothing takes the answer. Write instead: "
+        f"no executor spins {client._node!r} meanwhile, so nothing takes the answer. Write instead: "
         f"future = {words.ask}, then rclpy.spin_until_future_complete(node, future)."
     )
 
@@ -153,9 +153,7 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
         service = getattr(server.wake, "__self__", None)
         if server.node.process is not strand.process or service is None:
             return ""
-        by_this_call = drives and (
-            service._node is client._of_node or service._executor is client._executor is not None
-        )
+        by_this_call = drives and (service._node is client._node or service._executor is client._executor is not None)
         executor = service._executor
         spun = by_this_call or (others_may_act(strand) if executor is None else executor._spun_by_another(strand))
         if spun and not holds_group(service.callback_group):
@@ -209,7 +207,7 @@ def _somebody_may_complete(future: Future, executor: Executor, taken: Callable[[
     """Whether some callback or task can run while these groups are taken, since it may set the result."""
     if executor._resumed or executor._polled:
         return True
-    nodes = future._answered_by._of_node.context._nodes
+    nodes = future._answered_by._node.context._nodes
     return any(_may_act(entity, taken) for node in nodes for entity in node._ros_waiting_entities)
 
 

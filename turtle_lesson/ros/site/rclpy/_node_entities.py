@@ -185,8 +185,7 @@ class NodeEntities(NodeGraph):
         type_support.check_is_valid_srv_type(srv_type)
         end = self._ros_graph.add_client(self._ros_entry, full_name, srv_type._TYPE_NAME)
         group = callback_group or self._ros_default_callback_group
-        client = Client(self, end, srv_type, srv_name, qos_profile, group)  # type: ignore[arg-type]
-        return self._ros_keep(client)
+        return self._ros_keep(Client(end, srv_type, srv_name, qos_profile, group))
 
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None

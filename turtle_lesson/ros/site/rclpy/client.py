@@ -34,22 +34,16 @@ class Client(Entity):
     """Made by `Node.create_client`."""
 
     _kind = CLIENT
+    _node: Node
     _words = Words()
     __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Client[…] in a hint
 
     def __init__(
-        self,
-        node: Node,
-        end: ClientEnd,
-        srv_type: Any,
-        srv_name: str,
-        qos_profile: QoSProfile,
-        callback_group: CallbackGroup,
+        self, end: ClientEnd, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup
     ) -> None:
         super().__init__(self._set_result, callback_group)
         self._end = end
         end.wake = self._signal
-        self._of_node = node
         self.srv_type = srv_type
         self._request_type = srv_type.Request
         self.srv_name = srv_name
@@ -67,7 +61,7 @@ class Client(Entity):
     @property
     def context(self) -> Context:
         """The context that the client's node lives in."""
-        return self._of_node.context
+        return self._node.context
 
     def service_is_ready(self) -> bool:
         """Whether somebody offers the service now."""
@@ -75,12 +69,12 @@ class Client(Entity):
         return bool(self._servers()) or looked_in_vain()
 
     def _servers(self) -> list[Any]:
-        return self._of_node._ros_graph.servers(self._end.name, self._end.type_name)
+        return self._node._ros_graph.servers(self._end.name, self._end.type_name)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Wait until a node offers the service; False if none does within the timeout (s). None waits forever."""
         what = f"wait_for_service for {self._end.name}"
-        return wait_until(self.service_is_ready, timeout_sec, POLL, self._of_node.context, what)
+        return wait_until(self.service_is_ready, timeout_sec, POLL, self._node.context, what)
 
     def call_async(self, request: Any) -> Future:
         """Send a request; the future will have the response. Raises TypeError for anything but a request."""
@@ -127,7 +121,7 @@ class Client(Entity):
             else:
                 from . import spin_until_future_complete
 
-                spin_until_future_complete(self._of_node, future, timeout_sec=timeout_sec)
+                spin_until_future_complete(self._node, future, timeout_sec=timeout_sec)
         finally:
             self._waiting.pop(future._request_number, None)
         return future.result()
@@ -175,4 +169,4 @@ class Client(Entity):
         """Leave the service; answers under way are dropped."""
         if not self._destroyed:
             super().destroy()
-            self._of_node._ros_graph.remove_client(self._end)
+            self._node._ros_graph.remove_client(self._end)

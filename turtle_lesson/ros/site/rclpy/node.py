@@ -273,10 +273,10 @@ def _names(node_name: str, namespace: str | None, remaps: list[Remap]) -> tuple[
     """A node's name and namespace, remapped. Raises InvalidNodeNameException or InvalidNamespaceException."""
     if node_name is None:
         raise RCLError("error creating node: its name is None; a node needs a name, such as Node('talker')")
-    for what, given in (("name", node_name), ("namespace", namespace or "/")):
+    namespace = namespace or "/"
+    for what, given in (("name", node_name), ("namespace", namespace)):
         if not isinstance(given, str):
             raise TypeError(f"a node's {what} must be a str, got {given!r}")
-    namespace = namespace or "/"
     namespace = namespace if namespace.startswith("/") else f"/{namespace}"
     validate_node_name(node_name)
     original = node_name
