@@ -6,8 +6,7 @@ rclpy of Humble (https://docs.ros.org/en/humble/p/rclpy/) and from recordings of
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from turtle_lesson.ros.runtime.world import current_process
 from turtle_lesson.ros.sim.strand import running_strand
@@ -16,6 +15,7 @@ from ._blocking import drive, spin_live
 from ._hints import explain_missing
 from ._state import RclpyState
 from .context import Context
+from .parameter import Parameter
 from .qos import qos_profile_rosout_default
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
 from .task import Future
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     from .executors import Executor
     from .node import Node
-    from .parameter import Parameter
     from .qos import QoSProfile
 
 __all__ = [
@@ -196,13 +195,4 @@ def spin_until_future_complete(
         executor.remove_node(node)
 
 
-_missing: Callable[[str], Any] = explain_missing(__name__)
-
-
-def __getattr__(name: str) -> Any:
-    """`rclpy.Parameter`, whose module reads interface definitions when it is first used, and submodules."""
-    if name == "Parameter":
-        from .parameter import Parameter
-
-        return Parameter
-    return _missing(name)
+__getattr__ = explain_missing(__name__)

@@ -7,7 +7,7 @@ from types import GenericAlias
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from turtle_lesson.ros.idl import checks
-from turtle_lesson.ros.rmw.service import ClientEnd
+from turtle_lesson.ros.rmw.service import ClientEnd, ServerEnd
 from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
@@ -68,7 +68,7 @@ class Client(Entity):
         self._check_alive("failed to check service availability: rcl node's")
         return bool(self._servers()) or looked_in_vain()
 
-    def _servers(self) -> list[Any]:
+    def _servers(self) -> list[ServerEnd]:
         return self._node._ros_graph.servers(self._end.name, self._end.type_name)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
@@ -126,7 +126,7 @@ class Client(Entity):
             self._waiting.pop(future._request_number, None)
         return future.result()
 
-    def _wait(self, future: Future, strand: Any, timeout_sec: float | None) -> None:
+    def _wait(self, future: Future, strand: Strand, timeout_sec: float | None) -> None:
         simulation = self._end.simulation
         deadline = None if timeout_sec is None else simulation.now + int(timeout_sec * NANOSECONDS)
         future.add_done_callback(at_once(lambda _: simulation.wake(strand)))
@@ -138,7 +138,7 @@ class Client(Entity):
         finally:
             calls.remove(future)
 
-    def _taken_elsewhere(self, strand: Any) -> bool:
+    def _taken_elsewhere(self, strand: Strand) -> bool:
         return self._executor is not None and self._executor._spun_by_another(strand)
 
     def _has_work(self) -> bool:

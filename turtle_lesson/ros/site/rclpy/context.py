@@ -175,11 +175,11 @@ class Context:
         with suppress(ValueError):  # the context has ended
             self._waiting.remove(_reference(callback))
 
-    def track_node(self, node: Any) -> None:
+    def track_node(self, node: Node) -> None:
         """Remember a node, so that it leaves the graph when the process ends."""
         self._nodes.append(node)
 
-    def untrack_node(self, node: Any) -> None:
+    def untrack_node(self, node: Node) -> None:
         """Forget a node that was destroyed."""
         if node in self._nodes:
             self._nodes.remove(node)
