@@ -144,13 +144,12 @@ class Graph:
 
     def remove_node(self, node: NodeEntry) -> None:
         """A node leaves, and with it all its ends."""
-        ends: list[Writer | Reader] = [*node.writers, *node.readers]
-        for end in ends:
-            self.remove_topic_end(end)
-        for server in list(node.servers):
-            self.remove_server(server)
-        for client in list(node.clients):
-            self.remove_client(client)
+        topic_ends: list[Writer | Reader] = [*node.writers, *node.readers]
+        for topic_end in topic_ends:
+            self.remove_topic_end(topic_end)
+        service_ends: list[ServerEnd | ClientEnd] = [*node.servers, *node.clients]
+        for service_end in service_ends:
+            self.remove_service_end(service_end)
         if node in self.nodes:
             self.nodes.remove(node)
         self._changed()
@@ -228,16 +227,14 @@ class Graph:
         self._changed()
         return client
 
-    def remove_server(self, server: ServerEnd) -> None:
-        """A service goes; requests that it has not answered stay unanswered."""
-        server.node.servers.remove(server)
-        self._servers[server.name].remove(server)
-        self._changed()
-
-    def remove_client(self, client: ClientEnd) -> None:
-        """A client goes."""
-        client.node.clients.remove(client)
-        self._clients[client.name].remove(client)
+    def remove_service_end(self, end: ServerEnd | ClientEnd) -> None:
+        """A service or client goes; requests that a service has not answered stay unanswered."""
+        if isinstance(end, ServerEnd):
+            end.node.servers.remove(end)
+            self._servers[end.name].remove(end)
+        else:
+            end.node.clients.remove(end)
+            self._clients[end.name].remove(end)
         self._changed()
 
     def servers(self, name: str, type_name: str | None = None) -> list[ServerEnd]:

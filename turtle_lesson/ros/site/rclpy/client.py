@@ -169,4 +169,4 @@ class Client(Entity):
         """Leave the service; answers under way are dropped."""
         if not self._destroyed:
             super().destroy()
-            self._node._ros_graph.remove_client(self._end)
+            self._node._ros_graph.remove_service_end(self._end)

@@ -76,4 +76,4 @@ class Service(Entity):
         """Stop offering the service."""
         if not self._destroyed:
             super().destroy()
-            self._server.node.process.world.graph.remove_server(self._server)
+            self._server.node.process.world.graph.remove_service_end(self._server)
