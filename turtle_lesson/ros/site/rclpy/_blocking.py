@@ -120,7 +120,7 @@ class WakeUp:
         strand = self.strand
         check = functools.partial(wait_in_vain, strand, "the next tick") if only_from_within else None
         try:
-            return strand.simulation.wait_for(strand, lambda: self.woken, deadline, check)
+            strand.simulation.wait_for(strand, lambda: self.woken, deadline, check)
         finally:
             self._context.forget_wake(self.wake)
 
