@@ -154,6 +154,26 @@ def test_a_file_that_is_far_too_long_is_refused(demo: World, tmp_path: Path) -> 
     assert answer.code == 1 and "is too long: at most 100000 characters" in answer.stderr
 
 
+def test_the_old_ways_to_dump_are_warned_of(demo: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    answer = type_in(demo, "ros2 param dump /status_monitor --print")
+    assert answer.stdout == "/status_monitor:\n  ros__parameters:\n    use_sim_time: false\n\n"
+    assert answer.stderr == "WARNING: '--print' is deprecated; this utility prints to stdout by default\n"
+    answer = type_in(demo, f"ros2 param dump /param_demo --output-dir {tmp_path}")
+    assert answer.stdout == f"Saving to:  {tmp_path}/param_demo.yaml\n"
+    assert answer.stderr == "WARNING: '--output-dir' is deprecated; use redirection to save to a file\n"
+    assert "name: turtle" in (tmp_path / "param_demo.yaml").read_text()
+
+
+def test_a_dump_goes_only_into_a_folder_of_the_learner(demo: World, tmp_path: Path) -> None:
+    answer = type_in(demo, f"ros2 param dump /param_demo --output-dir {tmp_path}/none")
+    assert (answer.stdout, answer.stderr) == ("", f"'{tmp_path}/none' is not a valid directory.\n")
+    assert answer.code == 1
+    answer = type_in(demo, f"ros2 param dump /param_demo --output-dir {tmp_path}")
+    assert "is outside your folder" in answer.stderr and answer.code == 1
+    assert not list(tmp_path.iterdir())
+
+
 def test_nearly_right_names_are_found(demo: World) -> None:
     assert type_in(demo, "ros2 param get /param_dmo speed").stderr == "Node not found\nDid you mean '/param_demo'?\n"
     assert type_in(demo, "ros2 param get /param_demo sped").stderr == "Parameter not set\nDid you mean 'speed'?\n"

@@ -39,11 +39,29 @@ def test_roll_pitch_and_yaw_are_turns_about_fixed_axes_one_after_the_other(
 def test_figures_that_are_published() -> None:
     assert np.allclose(tft.quaternion_from_euler(1, 2, 3, "ryxz"), [0.310622, -0.718287, 0.444435, 0.435953])
     assert np.isclose(sum(tft.euler_matrix(1, 2, 3, "syxz")[0]), -1.34786452)
+    assert np.isclose(sum(tft.euler_matrix(1, 2, 3, (0, 1, 0, 1))[0]), -0.383436184)
     assert np.allclose(tft.quaternion_multiply([1, -2, 3, 4], [-5, 6, 7, 8]), [-44, -14, 48, 28])
     assert np.allclose(tft.quaternion_about_axis(0.123, (1, 0, 0)), [0.06146124, 0, 0, 0.99810947])
     assert np.allclose(tft.euler_from_quaternion([0.06146124, 0, 0, 0.99810947]), [0.123, 0, 0])
     turn = tft.quaternion_from_matrix(tft.rotation_matrix(0.123, (1, 2, 3)))
     assert np.allclose(turn, [0.0164262, 0.0328524, 0.0492786, 0.9981095])
+
+
+CODES = {
+    "sxyz": (0, 0, 0, 0),
+    "sxzx": (0, 1, 1, 0),
+    "szyx": (2, 1, 0, 0),
+    "syxy": (1, 1, 1, 0),
+    "rzyx": (0, 0, 0, 1),
+    "rxyx": (0, 0, 1, 1),
+    "ryxz": (2, 0, 0, 1),
+    "rzyz": (2, 1, 1, 1),
+}
+
+
+@pytest.mark.parametrize(("name", "code"), CODES.items())
+def test_axes_by_their_old_codes(name: str, code: tuple[int, int, int, int]) -> None:
+    assert np.allclose(tft.euler_matrix(1, 2, 3, code), tft.euler_matrix(1, 2, 3, name))
 
 
 @given(angles, vectors, vectors, vectors)
@@ -77,5 +95,3 @@ def test_mistakes_are_explained() -> None:
         tft.euler_from_quaternion(Quaternion())
     with pytest.raises(ValueError, match="axes must be such as 'sxyz' or 'rzyx', got 'xyz'"):
         tft.quaternion_from_euler(0, 0, 0, "xyz")
-    with pytest.raises(ValueError, match=r"axes must be such as 'sxyz' or 'rzyx', got \(0, 0, 0, 0\)"):
-        tft.quaternion_from_euler(0, 0, 0, (0, 0, 0, 0))

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from turtle_lesson.ros.runtime import files
+
 from .arguments import HIDDEN_NODES, NODE, OF_NODE, arg, flag
 from .typed_values import MAX_LENGTH, Unparsable, read_yaml
 from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
@@ -99,18 +101,37 @@ def set_values(node: Node, node_name: str, values: dict[str, Any], done: str, fa
     return all(result.successful for result in results)
 
 
-@graph_verb("param dump", *OF_NODE)
+@graph_verb(
+    "param dump",
+    *OF_NODE,
+    arg("--output-dir", "Deprecated: write a file named after the node into this folder"),
+    flag("--print", "Deprecated: print, as without --output-dir"),
+)
 def dump(args: Namespace, node: Node) -> None:
     """All parameters of a node, in the format that `load` reads."""
     import yaml
     from rclpy.parameter import parameter_value_to_python
 
+    if args.output_dir is not None and not Path(args.output_dir).is_dir():
+        raise CommandError(f"'{args.output_dir}' is not a valid directory.")
     name = find_node(node, args)
     names = listed(node, name)
     values = ask(node, name, "rcl_interfaces/srv/GetParameters", names=names).values
     pairs = zip(names, map(parameter_value_to_python, values), strict=False)
     tree = {name: {"ros__parameters": nested(list(pairs))}}
-    print(yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True))
+    text = yaml.safe_dump(tree, default_flow_style=False, allow_unicode=True)
+    if args.print:
+        print("WARNING: '--print' is deprecated; this utility prints to stdout by default", file=sys.stderr)
+    if args.print or args.output_dir is None:
+        print(text)
+        return
+    print("WARNING: '--output-dir' is deprecated; use redirection to save to a file", file=sys.stderr)
+    file = Path(args.output_dir, f"{name[1:].replace('/', '__')}.yaml")
+    print("Saving to: ", file)
+    try:
+        files.save(file, text)
+    except OSError as error:
+        raise CommandError(f"cannot write {file}: {error.strerror}") from None
 
 
 @graph_verb("param load", *OF_NODE, arg("parameter_file", "A file as `ros2 param dump` prints it"))

@@ -16,22 +16,30 @@ from tf2_py import _rotation as turns
 # Three angles about three axes, in 24 ways: `sxyz` is roll, pitch, yaw about fixed axes; `rzyx` about turning ones.
 # The letters name the axes in the order of the angles; `s` means axes that stay, `r` axes that are turned along.
 
+Axes = str | tuple[int, int, int, int]
+"""A name such as "sxyz", or its code: the first axis, then 1 or 0 for an odd order, a repeated axis, and turning axes."""
+
 Angles = tuple[float, float, float]
 Numbers = tuple[float, float, float, float]
 Matrix = npt.NDArray[np.float64]
 EPSILON = float(np.finfo(float).eps) * 4.0
 
 
-def _axes(axes: str) -> tuple[bool, tuple[int, ...]]:
+def _axes(axes: Axes) -> tuple[bool, tuple[int, ...]]:
     """Whether the axes turn along, and which they are."""
-    kind, letters = str(axes)[:1], str(axes)[1:]
+    if not isinstance(axes, str):
+        first, parity, repeated, turning = axes
+        second = (first + 1 + parity) % 3
+        fixed = (first, second, first if repeated else 3 - first - second)
+        return bool(turning), fixed[::-1] if turning else fixed
+    kind, letters = axes[:1], axes[1:]
     numbers = tuple(map("xyz".find, letters))
     if kind not in "sr" or len(numbers) != 3 or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
         raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', got {axes!r}")
     return kind == "r", numbers
 
 
-def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Numbers:
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Numbers:
     """The quaternion of three angles: by default roll, pitch and yaw."""
     turning, numbers = _axes(axes)
     found: Numbers = (0.0, 0.0, 0.0, 1.0)
@@ -41,17 +49,17 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
     return found
 
 
-def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Matrix:
+def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
     """The 4 × 4 matrix of three angles: by default roll, pitch and yaw."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
-def euler_from_quaternion(quaternion: Iterable[float], axes: str = "sxyz") -> Angles:
+def euler_from_quaternion(quaternion: Iterable[float], axes: Axes = "sxyz") -> Angles:
     """The angles of a quaternion [x, y, z, w]: by default roll, pitch and yaw."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
-def euler_from_matrix(matrix: npt.ArrayLike, axes: str = "sxyz") -> Angles:
+def euler_from_matrix(matrix: npt.ArrayLike, axes: Axes = "sxyz") -> Angles:
     """The angles of a turn in a matrix. Where many would do, the one about the last fixed axis is 0."""
     turning, numbers = _axes(axes)
     turn = np.array(matrix, dtype=np.float64)[:3, :3]
