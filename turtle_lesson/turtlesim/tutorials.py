@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import threading
+from functools import partial
 from typing import Any
 
 import rclpy
@@ -94,15 +95,8 @@ class Mimic(Node):
         self._publisher.publish(message)
 
 
-def draw_square() -> None:
-    """Run until Ctrl-C."""
-    spin(DrawSquare)
-
-
-def mimic() -> None:
-    """Run until Ctrl-C."""
-    spin(Mimic)
-
+draw_square = partial(spin, DrawSquare)
+mimic = partial(spin, Mimic)
 
 HELP = """\
 Reading from keyboard

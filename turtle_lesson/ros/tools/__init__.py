@@ -19,17 +19,14 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).resolve().parent
 SITE = HERE.parent / "site"
-_PROGRAMS = {
-    "tf2_ros": ("static_transform_publisher", "tf2_echo"),
-    "tf2_tools": ("view_frames",),
-}
 
 
 def tf2_packages() -> list[Package]:
     """The packages with these programs, for a world to have."""
+    programs = {"tf2_ros": ("static_transform_publisher", "tf2_echo"), "tf2_tools": ("view_frames",)}
     return [
         Package(package, SITE / "tf2_ros", executables={name: program(f"{__name__}.tf2", name) for name in names})
-        for package, names in _PROGRAMS.items()
+        for package, names in programs.items()
     ]
 
 

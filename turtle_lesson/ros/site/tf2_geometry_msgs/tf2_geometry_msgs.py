@@ -25,10 +25,8 @@ from geometry_msgs.msg import (
 from tf2_py import _rotation as turns
 from tf2_ros import TransformRegistration
 
-Parts = tuple[turns.Quaternion, turns.Vector]
 
-
-def _parts(transform: TransformStamped) -> Parts:
+def _parts(transform: TransformStamped) -> tuple[turns.Quaternion, turns.Vector]:
     """Turn and shift of a transform."""
     return _turn(transform.transform.rotation), _vector(transform.transform.translation)
 

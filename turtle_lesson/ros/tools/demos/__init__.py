@@ -6,6 +6,8 @@ demo_nodes_cpp of Humble). Each program is plain rclpy.
 
 from __future__ import annotations
 
+from functools import partial
+
 import rclpy
 from example_interfaces.srv import AddTwoInts
 from rclpy.client import Client
@@ -67,9 +69,7 @@ class Adder(Node):
         return response
 
 
-def add_two_ints_server() -> None:
-    """`add_two_ints_server`: answers until Ctrl-C."""
-    spin(Adder)
+add_two_ints_server = partial(spin, Adder)
 
 
 def add_two_ints_client() -> None:
