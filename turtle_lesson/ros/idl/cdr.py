@@ -135,31 +135,29 @@ def _single(type_: FieldType, element_class: type | None) -> Codec:
     if type_.base in CODES:
         return _number(CODES[type_.base])
     put_length, get_length = _number("I")
-    bound = type_.string_bound
+    bound, is_wide = type_.string_bound, type_.base == "wstring"
 
     def write(body: bytearray, text: str) -> None:
-        letters = text.encode() + b"\0"
-        put_length(body, len(letters))
-        body += letters
+        if is_wide:
+            units = array("I", array("H", text.encode("utf-16-le")))
+            put_length(body, len(units))
+            body += units.tobytes()
+        else:
+            letters = text.encode() + b"\0"
+            put_length(body, len(letters))
+            body += letters
 
     def read(source: _Input) -> str:
-        return checked(str(source.take(get_length(source))[:-1], "utf-8"))
-
-    def write_wide(body: bytearray, text: str) -> None:
-        units = array("H", text.encode("utf-16-le"))
-        put_length(body, len(units))
-        body += array("I", units).tobytes()
-
-    def read_wide(source: _Input) -> str:
-        units = source.numbers("I", get_length(source))
-        return checked(array("H", units).tobytes().decode("utf-16-le"))
-
-    def checked(text: str) -> str:
+        length = get_length(source)
+        if is_wide:
+            text = array("H", source.numbers("I", length)).tobytes().decode("utf-16-le")
+        else:
+            text = str(source.take(length)[:-1], "utf-8")
         if bound is not None and len(text) > bound:
             raise ValueError(f"{len(text)} characters in a string of at most {bound}")
         return text
 
-    return (write, read) if type_.base == "string" else (write_wide, read_wide)
+    return write, read
 
 
 def _number(code: str) -> Codec:

@@ -27,7 +27,6 @@ Check = Callable[[Any], Any]
 when_assigned = True
 """Whether values are checked when they are assigned; a world sets it when it opens."""
 
-FLOAT_WORDS = {"float32": "float", "float64": "double"}
 TYPE_CODES = {
     "float32": "f", "float64": "d", "int8": "b", "uint8": "B", "char": "B", "int16": "h", "uint16": "H", "int32": "i",
     "uint32": "I", "int64": "q", "uint64": "Q",
@@ -239,7 +238,7 @@ def _value_test(type_: FieldType, kind: type[Any]) -> Callable[[Any], bool]:
 def _range(base: str, digits: str = "") -> str:
     """`unsigned integer in [0, 255]`."""
     low, high = bounds(base)
-    word = FLOAT_WORDS.get(base) or ("integer" if low else "unsigned integer")
+    word = {"float32": "float", "float64": "double"}.get(base) or ("integer" if low else "unsigned integer")
     return f"{word} in [{low:{digits}}, {high:{digits}}]"
 
 
