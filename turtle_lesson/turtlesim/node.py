@@ -144,7 +144,7 @@ class ShownTurtle:
     """What ROS sees of one turtle: its topics, its services and its action."""
 
     def __init__(self, node: Node, turtle: Turtle, turning: list["RotateAction"]) -> None:
-        self._node, self._turtle, self._name = node, turtle, turtle.name
+        self._node, self._turtle = node, turtle
         name = turtle.name
         self._subscription = node.create_subscription(Twist, f"{name}/cmd_vel", self._on_command, QUEUE_DEPTH)
         self._pose_publisher = node.create_publisher(Pose, f"{name}/pose", QUEUE_DEPTH)

@@ -89,7 +89,8 @@ class Cache(SimpleFilter):
         super().__init__()
         self.connectInput(f)
         self.allow_headerless = allow_headerless
-        self._entries: deque[tuple[Time, Any]] = deque(maxlen=cache_size)
+        self.cache_msgs: deque[Any] = deque(maxlen=cache_size)
+        self.cache_times: deque[Time] = deque(maxlen=cache_size)
 
     def connectInput(self, f: SimpleFilter) -> None:
         """Take messages from another filter."""
@@ -99,33 +100,37 @@ class Cache(SimpleFilter):
         """Keep a message; the oldest has to go if there are too many."""
         stamp = stamp_of(msg, self.allow_headerless, "message_filters_cache")
         if stamp is not None:
-            self._entries.append((stamp, msg))
+            self.cache_times.append(stamp)
+            self.cache_msgs.append(msg)
             self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
         """The messages of an interval of time, both ends included."""
         assert from_stamp <= to_stamp
-        return [msg for time, msg in self._entries if from_stamp <= time <= to_stamp]
+        entries = zip(self.cache_times, self.cache_msgs, strict=True)
+        return [msg for time, msg in entries if from_stamp <= time <= to_stamp]
 
     def getElemAfterTime(self, stamp: Time) -> Any:
         """The first message at this time or after it; None if there is none."""
-        return next((msg for time, msg in self._entries if time >= stamp), None)
+        entries = zip(self.cache_times, self.cache_msgs, strict=True)
+        return next((msg for time, msg in entries if time >= stamp), None)
 
     def getElemBeforeTime(self, stamp: Time) -> Any:
         """The last message at this time or before it; None if there is none."""
-        return next((msg for time, msg in reversed(self._entries) if time <= stamp), None)
+        entries = zip(reversed(self.cache_times), reversed(self.cache_msgs), strict=True)
+        return next((msg for time, msg in entries if time <= stamp), None)
 
     def getLastestTime(self) -> Time | None:
         """The time of the last message (so it is spelt); None if there is none."""
-        return self._entries[-1][0] if self._entries else None
+        return self.cache_times[-1] if self.cache_times else None
 
     def getOldestTime(self) -> Time | None:
         """The time of the first message; None if there is none."""
-        return self._entries[0][0] if self._entries else None
+        return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:
         """The first message that is as late as the last one; None if there is none."""
-        return self.getElemAfterTime(self._entries[-1][0]) if self._entries else None
+        return self.getElemAfterTime(self.cache_times[-1]) if self.cache_times else None
 
 
 def stamp_of(msg: Any, allow_headerless: bool, logger: str) -> Time | None:
