@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 TERMINATED = -15
 """The exit code of a process that was ended by SIGTERM, as launch prints it."""
 
+START_UP = 300_000_000
+"""How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
+
 RESPAWN_PAUSE = 0.25
 """How long, in s, a program that is not Python stays away when it respawns without a delay, so that robot time passes."""
 
@@ -101,6 +104,9 @@ class RunningProcess:
         if self.service.context.is_shutdown:
             return
         program = self.action._program
+        now = up_at = self.service.world.sim.now
+        if self._is_python:
+            up_at = self.service.up_at = max(self.service.up_at, now) + START_UP
         stdout, stderr = _Output(self, 1), _Output(self, 2)
 
         def on_exit(process: Process) -> None:
@@ -116,7 +122,7 @@ class RunningProcess:
             stderr=stderr,
             on_exit=on_exit,
             environ=self.action.process_details["env"],
-            start_up=self.service.next_start_up() if self._is_python else 0,
+            start_up=up_at - now,
         )
         self.action.process_details["pid"] = self.process.pid
         self.service.say("INFO", self.name, f"process started with pid [{self.process.pid}]")

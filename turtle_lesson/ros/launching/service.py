@@ -39,9 +39,6 @@ if TYPE_CHECKING:
     from ..runtime.world import World
     from ..sim.process import Process
 
-START_UP = 300_000_000
-"""How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
-
 
 class LaunchService:
     """Carries out one launch in a world."""
@@ -75,12 +72,6 @@ class LaunchService:
         """Have an action's process started as soon as what is being walked through is done."""
         self._waiting.append(action)
         self.settle_soon()
-
-    def next_start_up(self) -> int:
-        """How long the next Python program takes until it begins (ns), as they come up one after the other."""
-        now = self.world.sim.now
-        self.up_at = max(self.up_at, now) + START_UP
-        return self.up_at - now
 
     def ended(self, process: RunningProcess) -> None:
         """A process is dead: say how, and go on from there."""
@@ -178,7 +169,11 @@ class LaunchService:
                 function()
                 self._settle()
             except Exception as error:
-                self._fail(as_launch_error(error))
+                self.failed = True
+                said = as_launch_error(error)
+                for line in filter(None, (said.console, said.advice)):
+                    self.line(line)
+                self.shut_down("an error in the launch")
 
     def interrupt(self) -> None:
         """End it, as Ctrl-C in its terminal would."""
@@ -203,12 +198,6 @@ class LaunchService:
             self._settling = False
             if self._helper is not None and not self.running:
                 self._helper.close()
-
-    def _fail(self, error: LaunchError) -> None:
-        self.failed = True
-        for line in filter(None, (error.console, error.advice)):
-            self.line(line)
-        self.shut_down("an error in the launch")
 
     def _settle(self) -> None:
         while self._waiting or self.context._event_queue:

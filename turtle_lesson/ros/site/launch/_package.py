@@ -9,24 +9,21 @@ from collections import defaultdict
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType, ModuleType
+from types import ModuleType
 from typing import Any
 
 
-def complete_package(package: str, modules: Mapping[str, str] = MappingProxyType({})) -> None:
+def complete_package(package: str) -> None:
     """Let the modules of a real package be imported by their names, though fewer files hold what is in them.
 
     Each public class lies in a module of its own, too: `launch.actions.TimerAction` in `launch.actions.timer_action`. It has
     that name as its `__module__`, as on a robot. A public name that is not here raises an ImportError that says so.
 
-    All files of the package have been imported. Its further modules are in its `modules.txt`, with the names that the real
-    one has and what to do without them, or in `modules`, with the names in each, parted by spaces.
+    All files of the package have been imported. Its further modules are in its `modules.txt`, with the names in each, parted by
+    spaces, and then the names that only the real one has, with what to do without them.
     """
     file = Path(str(sys.modules[package].__file__)).with_name("modules.txt")
-    here, _, not_here = (
-        file.read_text(encoding="utf-8").partition("==== not here\n") if file.is_file() else ("", "", "")
-    )
-    modules = {**modules, **dict(line.split(": ", 1) for line in here.splitlines()[1:])}
+    here, _, not_here = file.read_text(encoding="utf-8").partition("==== not here\n")
     missing: defaultdict[str, dict[str, str]] = defaultdict(dict)
     for line in not_here.splitlines():
         path, what_to_do = line.split(": ", 1)
@@ -34,7 +31,7 @@ def complete_package(package: str, modules: Mapping[str, str] = MappingProxyType
         missing[module_name][name] = what_to_do
     files = sorted(name for name in sys.modules if f"{name}.".startswith(f"{package}."))
     anywhere = {name: value for each in files for name, value in vars(sys.modules[each]).items()}
-    for path, names in modules.items():
+    for path, names in (line.split(": ", 1) for line in here.splitlines()[1:]):
         nearer = vars(sys.modules[path.rpartition(".")[0]])
         for name in names.split():
             _put(path, name, nearer.get(name, anywhere[name]), files)

@@ -6,6 +6,7 @@ import difflib
 import os
 from pathlib import Path
 from types import ModuleType
+from typing import ClassVar
 
 from turtle_lesson.ros.ament.package import PackageNotFoundError
 from turtle_lesson.ros.sim.errors import shown_path
@@ -89,8 +90,10 @@ def _without_function(path: str) -> InvalidPythonLaunchFileError:
 class FrontendLaunchDescriptionSource(_LaunchFile):
     """Gets the description from an XML or YAML launch file."""
 
+    _read: ClassVar = staticmethod(read_launch_file)
+
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        return description_of(read_launch_file(location))
+        return description_of(self._read(location))
 
 
 class AnyLaunchDescriptionSource(_LaunchFile):

@@ -31,15 +31,13 @@ class LaunchService:
         self.context: LaunchContext = self._launch.context
         self.context.argv = list(argv or [])
         self.context.noninteractive = noninteractive
-        self._early: list[Event] = []
         self._runs = False
 
     def emit_event(self, event: Event) -> None:
         """Let something count as having happened; before `run()` it waits."""
+        self.context._event_queue.append(event)
         if self._runs:
-            self.context.emit_event_sync(event)
-        else:
-            self._early.append(event)
+            self._launch.settle_soon()
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Take a description in; before `run()` it waits."""
@@ -58,8 +56,7 @@ class LaunchService:
     def _run(self, shutdown_when_idle: bool) -> int:
         self._runs = True
         self._launch.say("INFO", "launch", "Default logging verbosity is set to INFO")
-        self._launch.carry_on(lambda: self.context._event_queue.extend(self._early))
-        self._early.clear()
+        self._launch.carry_on(lambda: None)
         while self._launch.running or not (shutdown_when_idle or self.context.is_shutdown):
             try:
                 time.sleep(LOOKS)

@@ -9,6 +9,7 @@ import os
 import shutil
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from operator import attrgetter
 from typing import Any
 
 from turtle_lesson.ros import hooks
@@ -104,13 +105,11 @@ class LocalSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The value as text. Raises SubstitutionFailure if there is no such value."""
-        value: object = context.locals
-        for name in self.expression.split("."):
-            if not hasattr(value, name):
-                what = f"context.locals does not contain attribute '{name}'"
-                raise SubstitutionFailure(f"'{self.expression}': {what}")
-            value = getattr(value, name)
-        return str(value)
+        try:
+            return str(attrgetter(self.expression)(context.locals))
+        except AttributeError as error:
+            what = f"context.locals does not contain attribute '{error.name}'"
+            raise SubstitutionFailure(f"'{self.expression}': {what}") from None
 
 
 @expose_substitution("filename")

@@ -6,6 +6,7 @@ stays text, and what a substitution gives is read as YAML: `5.0` is a double, `1
 
 from __future__ import annotations
 
+import re
 import shutil
 import weakref
 from collections.abc import Iterator, Mapping, Sequence
@@ -98,13 +99,10 @@ def uniform(items: list[Any]) -> list[Any]:
 
 def as_argument(value: Any) -> str:
     """A value as it stands after `name:=` on a command line, such that YAML reads the same value again."""
-
-    def dump(readable: bool) -> str:
-        return yaml.safe_dump(value, default_flow_style=True, allow_unicode=readable, width=float("inf"))
-
-    text = dump(True)
-    if any(line_end in text for line_end in "\x85\u2028\u2029"):  # which PyYAML would fold away
-        text = dump(False)
+    for readable in (True, False):
+        text = yaml.safe_dump(value, default_flow_style=True, allow_unicode=readable, width=float("inf"))
+        if not re.search("[\x85\u2028\u2029]", text):  # which PyYAML would fold away
+            break
     return text.removesuffix("\n").removesuffix("\n...")
 
 

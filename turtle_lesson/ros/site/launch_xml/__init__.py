@@ -6,7 +6,6 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 from xml.parsers import expat
 
-from launch import LaunchDescription, frontend
 from launch._entities import explained
 from launch._entity import Mapping
 from launch._package import complete_package
@@ -54,8 +53,7 @@ _HINTS = {
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """Gets the description from an XML launch file."""
 
-    def _get_launch_description(self, location: str) -> LaunchDescription:
-        return frontend.description_of(read(location))
+    _read = staticmethod(read)
 
 
-complete_package("launch_xml", {"launch_xml.launch_description_sources": "XMLLaunchDescriptionSource"})
+complete_package("launch_xml")

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import yaml
-from launch import LaunchDescription, frontend
 from launch._entities import explained
 from launch._entity import Mapping
 from launch._package import complete_package
@@ -65,8 +64,7 @@ def _hint(error: yaml.MarkedYAMLError) -> str:
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """Gets the description from a YAML launch file."""
 
-    def _get_launch_description(self, location: str) -> LaunchDescription:
-        return frontend.description_of(read(location))
+    _read = staticmethod(read)
 
 
-complete_package("launch_yaml", {"launch_yaml.launch_description_sources": "YAMLLaunchDescriptionSource"})
+complete_package("launch_yaml")
