@@ -313,92 +313,89 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
     [
         (
             f'{NODE} outputs="screen"/>',
-            "ValueError: Unexpected attribute(s) found in `node`: {'outputs'}",
+            "Unexpected attribute(s) found in `node`: {'outputs'}",
             "Did you mean 'output'?",
         ),
         (
             f"{NODE}><arg name='x'/></node>",
-            "ValueError: Unexpected nested tag(s) found in `node`: {'arg'}",
+            "Unexpected nested tag(s) found in `node`: {'arg'}",
             "`node` can have: env, param, remap.",
         ),
-        ("<nod/>", "RuntimeError: Unrecognized entity of the type: nod", "Did you mean 'node'?"),
+        ("<nod/>", "Unrecognized entity of the type: nod", "Did you mean 'node'?"),
         (
             "<for_each/>",
-            "RuntimeError: Unrecognized entity of the type: for_each",
+            "Unrecognized entity of the type: for_each",
             "Loops are not available in XML and YAML files here: write the file in Python, with a loop.",
         ),
         (
             "<set_ros_log_dir/>",
-            "RuntimeError: Unrecognized entity of the type: set_ros_log_dir",
+            "Unrecognized entity of the type: set_ros_log_dir",
             "There are no log files here.",
         ),
         (
             '<log message="$(param depth)"/>',
-            "RuntimeError: Unknown substitution: param",
+            "Unknown substitution: param",
             "$(param …) is not available here: use $(var …) of an argument.",
         ),
         (
             '<log message="$(any 1 0)"/>',
-            "RuntimeError: Unknown substitution: any",
+            "Unknown substitution: any",
             "$(any …) is not available here: use $(or …).",
         ),
         (
             '<node package="robot_controller" executable="navigator"/>',
-            "AttributeError: Attribute 'exec' of type '<class 'str'>' not found in Entity 'node'",
+            "Attribute 'exec' of type '<class 'str'>' not found in Entity 'node'",
             "It is called exec here, not executable.",
         ),
         (
             '<include path="x"/>',
-            "AttributeError: Attribute 'file' of type '<class 'str'>' not found in Entity 'include'",
+            "Attribute 'file' of type '<class 'str'>' not found in Entity 'include'",
             "It is called file here, not path.",
         ),
         (
             '<arg name="x" value="1"/>',
-            "ValueError: Unexpected attribute(s) found in `arg`: {'value'}",
+            "Unexpected attribute(s) found in `arg`: {'value'}",
             "Did you mean 'default'?",
         ),
         (
             f'{NODE} if="true" unless="true"/>',
-            "RuntimeError: if and unless conditions can't be used simultaneously",
+            "if and unless conditions can't be used simultaneously",
             "",
         ),
-        (f"{NODE}><param name='x'/></node>", "RuntimeError: either a value attribute or nested params are needed", ""),
-        (f"{NODE}><param value='x'/></node>", "ValueError: param Entity should have name or from attribute", ""),
+        (f"{NODE}><param name='x'/></node>", "either a value attribute or nested params are needed", ""),
+        (f"{NODE}><param value='x'/></node>", "param Entity should have name or from attribute", ""),
         (
             f"{NODE}><param name='x' from='y'/></node>",
-            "RuntimeError: name and from attributes are mutually exclusive",
+            "name and from attributes are mutually exclusive",
             "",
         ),
         (
             '<unset_env name="x"/>',
-            "RuntimeError: Unrecognized entity of the type: unset_env",
+            "Unrecognized entity of the type: unset_env",
             "It is not available here: put what belongs together into a group.",
         ),
         (
             '<group scoped="maybe"/>',
-            "TypeError: Attribute 'scoped' of Entity 'group' expected to be of type '<class 'bool'>'."
+            "Attribute 'scoped' of Entity 'group' expected to be of type '<class 'bool'>'."
             "'maybe' can not be converted to one of those types",
             "",
         ),
-        ('<log message="$(vra x)"/>', "RuntimeError: Unknown substitution: vra", "Did you mean 'var'?"),
+        ('<log message="$(vra x)"/>', "Unknown substitution: vra", "Did you mean 'var'?"),
         (
             '<log message="$(var)"/>',
-            "TypeError: var substitution expects 1 or 2 arguments",
+            "var substitution expects 1 or 2 arguments",
             "Write $(var <variable_name> <default>); put an argument with spaces in quotes.",
         ),
         (
             '<log message="$(var x"/>',
-            "SubstitutionSyntaxError: Unexpected end-of-input, at line 1 col 8 of '$(var x'",
+            "Unexpected end-of-input, at line 1 col 8 of '$(var x'",
             "Is the bracket of '$(var x' closed?",
         ),
     ],
 )
 def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said: str, hint: str) -> None:
     error = failure(tmp_path, f"<launch>\n  <group>\n    {line}\n  </group>\n</launch>\n")
-    assert error.reason == (
-        "Caught multiple exceptions when trying to load file of format [xml]:\n"
-        f" - {said}\n - SyntaxError: invalid syntax (bad.launch.xml, line 1)"
-    )
+    assert error.reason == f"Caught exception when trying to load file of format [xml]: {said}"
     assert (error.file, error.line, error.hint) == (str(tmp_path / "bad.launch.xml"), 3, hint)
 
 
@@ -407,32 +404,31 @@ def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said
     [
         (
             "- node:\n  pkg: robot_controller\n  exec: navigator\n",
-            "RuntimeError: Subentity must be a dictionary with only one key, which is the entity type",
+            "Subentity must be a dictionary with only one key, which is the entity type",
             2,
             "Indent what belongs to node deeper than node itself.",
         ),
         (
             "- arg:\n    name: x\n    default: 5\n",
-            "TypeError: Attribute 'default' of Entity 'arg' expected to be of type '<class 'str'>', "
-            "got '<class 'int'>'",
+            "Attribute 'default' of Entity 'arg' expected to be of type '<class 'str'>', got '<class 'int'>'",
             2,
             'Put it into quotation marks: default: "5"',
         ),
         (
             "- node:\n    pkg: a\n    exec: b\n    param:\n      name: x\n",
-            "TypeError: Attribute 'param' of Entity 'node' expected to be a list of dictionaries.",
+            "Attribute 'param' of Entity 'node' expected to be a list of dictionaries.",
             2,
             "Begin each param with a hyphen.",
         ),
         (
             "- log: {message: x}\n- node: {pkg: a, exec: b, outputs: screen}\n",
-            "ValueError: Unexpected key(s) found in `node`: {'outputs'}",
+            "Unexpected key(s) found in `node`: {'outputs'}",
             3,
             "Did you mean 'output'?",
         ),
         (
             "- push_ros_namespace: robot1\n",
-            "TypeError: Expected a dict or list, got <class 'str'>",
+            "Expected a dict or list, got <class 'str'>",
             2,
             "Write the attributes of push_ros_namespace below it, each on a line of its own.",
         ),
@@ -440,10 +436,7 @@ def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said
 )
 def test_a_mistake_in_yaml_is_named_with_its_line(tmp_path: Path, text: str, said: str, line: int, hint: str) -> None:
     error = failure(tmp_path, f"launch:\n{text}", "bad_launch.yaml")
-    assert error.reason.splitlines()[:2] == [
-        "Caught multiple exceptions when trying to load file of format [yaml]:",
-        f" - {said}",
-    ]
+    assert error.reason == f"Caught exception when trying to load file of format [yaml]: {said}"
     assert (error.line, error.hint) == (line, hint)
 
 
@@ -453,50 +446,47 @@ def test_a_mistake_in_yaml_is_named_with_its_line(tmp_path: Path, text: str, sai
         (
             "a.launch.xml",
             "<launch>\n<group>\n</launch>\n",
-            "ParseError: mismatched tag: line 3, column 2",
+            "mismatched tag: line 3, column 2",
             3,
             "Every <tag>",
         ),
         (
             "a.launch.xml",
             "<launch>\n<log message=x/>\n</launch>",
-            "ParseError: not well-formed (invalid token)",
+            "not well-formed (invalid token)",
             2,
             "Put values in quotation marks",
         ),
-        ("a.launch.xml", "<launch>\n", "ParseError: no element found: line 2, column 0", 2, "The file ends too early"),
-        ("a.launch.yaml", "launch:\n- log:\n\tmessage: x\n", "ScannerError: while scanning", 3, "YAML is indented"),
+        ("a.launch.xml", "<launch>\n", "no element found: line 2, column 0", 2, "The file ends too early"),
+        ("a.launch.yaml", "launch:\n- log:\n\tmessage: x\n", "while scanning", 3, "YAML is indented"),
         (
             "a.launch.yaml",
             "launch:\n- log:\n    message: a: b\n",
-            "ScannerError: mapping values",
+            "mapping values",
             3,
             "Put a value that contains ': '",
         ),
         (
             "a.launch.yaml",
             "launch:\n- &a [*a]\n",
-            "ComposerError: *a stands for a value that contains it",
+            "*a stands for a value that contains it",
             2,
             "",
         ),
-        ("a.launch.yaml", "launch: " + "[" * 500, "ComposerError: lists and mappings are nested more than 100", 1, ""),
-        ("a.launch.yaml", "a: 1\nb: 2\n", "RuntimeError: Expected only one root", 1, "The file begins with launch:"),
-        ("a.launch.yaml", "", "RuntimeError: Expected only one root", 1, "The file begins with launch:"),
+        ("a.launch.yaml", "launch: " + "[" * 500, "lists and mappings are nested more than 100", 1, ""),
+        ("a.launch.yaml", "a: 1\nb: 2\n", "Expected only one root", 1, "The file begins with launch:"),
+        ("a.launch.yaml", "", "Expected only one root", 1, "The file begins with launch:"),
     ],
 )
 def test_a_file_that_cannot_be_read(tmp_path: Path, name: str, text: str, said: str, line: int, hint: str) -> None:
     error = failure(tmp_path, text, name)
     kind = name.rpartition(".")[2]
-    many = f"Caught multiple exceptions when trying to load file of format [{kind}]:"
-    lines = error.reason.splitlines()
-    assert lines[:2] == [many, f" - InvalidFrontendLaunchFileError: {many}"]
-    assert lines[2].startswith(f" - {said}")
+    assert error.reason.startswith(f"Caught exception when trying to load file of format [{kind}]: {said}")
     assert error.line == line and error.hint.startswith(hint)
 
 
 def test_a_root_of_another_name(tmp_path: Path) -> None:
-    assert "RuntimeError: Expected 'launch' as root tag" in failure(tmp_path, "lunch: []", "a.launch.yaml").reason
+    assert "Expected 'launch' as root tag" in failure(tmp_path, "lunch: []", "a.launch.yaml").reason
 
 
 def test_a_mistake_that_shows_while_it_runs_has_its_line_too(tmp_path: Path) -> None:

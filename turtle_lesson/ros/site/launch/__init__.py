@@ -29,8 +29,7 @@ from ._entities import (
     Substitution,
 )
 from ._package import complete_package
-from .frontend import InvalidLaunchFileError
-from .launch_description_sources import LaunchDescriptionSource
+from .launch_description_sources import InvalidLaunchFileError, LaunchDescriptionSource
 from .launch_service import LaunchService
 
 __all__ = [

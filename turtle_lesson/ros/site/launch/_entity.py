@@ -144,7 +144,7 @@ class Entity:
         return [value_in_text(item, item_type, can_be_str) for item in items]
 
     def ignore_rest(self) -> None:
-        """Pass over whatever was not asked for."""
+        """Pass over whatever was not asked for, as the way in which an action reads its tag."""
         self._asked |= dict.fromkeys(self._inside, ATTRIBUTES)
 
     def assert_entity_completely_parsed(self) -> None:

@@ -10,7 +10,6 @@ import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, TypeVar, dataclass_transform
 
 from turtle_lesson.ros.idl.names import did_you_mean
@@ -18,29 +17,7 @@ from turtle_lesson.ros.idl.names import did_you_mean
 from ._entities import Action, LaunchDescription, Substitution, TextSubstitution, explained
 from ._entity import Entity
 
-__all__ = ["Entity", "InvalidFrontendLaunchFileError", "parse_substitution"]
-
-
-class InvalidLaunchFileError(Exception):
-    """A launch file could not be loaded; the text lists what each loader said."""
-
-    def __init__(self, extension: str = "", *, likely_errors: Sequence[BaseException] | None = None) -> None:
-        self.likely_errors = list(likely_errors or [])
-        self.extension = extension
-        # what the real one prints, without the simulation's hint after it
-        said = [KeyError.__str__(each) if isinstance(each, KeyError) else str(each) for each in self.likely_errors]
-        text = "The launch file may have a syntax error, or its format is unknown"
-        if extension and len(said) == 1:
-            text = f"Caught exception when trying to load file of format [{extension}]: {said[0]}"
-        elif extension and said:
-            lines = [f" - {type(each).__name__}: {words}" for each, words in zip(self.likely_errors, said, strict=True)]
-            what = f"Caught multiple exceptions when trying to load file of format [{extension}]:"
-            text = "\n".join([what, *lines])
-        super().__init__(text)
-
-
-class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
-    """A launch file that is neither XML nor YAML."""
+__all__ = ["Entity", "parse_substitution"]
 
 
 # -- how the arguments of an action are read from its tag ----------------------------------------------------------------
@@ -98,11 +75,6 @@ def pair(first: str = "name", second: str = "value") -> Reader:
 def actions(entity: Entity) -> list[Action]:
     """The actions in a tag."""
     return [action_of(child) for child in entity.children]
-
-
-def anything(entity: Entity) -> None:
-    """Whatever is in a tag; it is passed over."""
-    entity.ignore_rest()
 
 
 # -- which action or substitution a name stands for ----------------------------------------------------------------------
@@ -205,24 +177,11 @@ def description_of(root: Entity) -> LaunchDescription:
 
 
 def read_launch_file(file: str) -> Entity:
-    """The root tag of a file: as what its ending says, or else as what it can be read as.
-
-    Raises InvalidFrontendLaunchFileError if it is neither XML nor YAML.
-    """
+    """The root tag of a file: YAML if its name ends so, otherwise XML. Raises what the reader of its format raises."""
     import launch_xml
     import launch_yaml
 
-    extension = Path(file).suffix.lstrip(".")
-    errors = []
-    for each in (launch_yaml, launch_xml) if extension in ("yaml", "yml") else (launch_xml, launch_yaml):
-        try:
-            return each.read(file)
-        except OSError:
-            raise
-        except Exception as error:
-            errors.append(error)
-    known = extension if extension in ("xml", "yaml", "yml") else ""
-    raise InvalidFrontendLaunchFileError(known, likely_errors=errors) from errors[0]
+    return (launch_yaml if file.endswith((".yaml", ".yml")) else launch_xml).read(file)
 
 
 # -- `$(…)` in a text ----------------------------------------------------------------------------------------------------

@@ -13,10 +13,28 @@ from turtle_lesson.ros.sim.errors import shown_path
 
 from ._context import LaunchContext
 from ._entities import LaunchDescription, SomeSubstitutionsType, described, explained
-from .frontend import InvalidFrontendLaunchFileError, InvalidLaunchFileError, description_of, read_launch_file
+from .frontend import description_of, read_launch_file
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 __all__ = ["AnyLaunchDescriptionSource", "FrontendLaunchDescriptionSource", "PythonLaunchDescriptionSource"]
+
+
+class InvalidLaunchFileError(Exception):
+    """A launch file could not be loaded. The text is the real one, without a hint of the simulation's after it.
+
+    A real launch reads what is not Python as XML or YAML then (`tried_both`), and says so.
+    """
+
+    def __init__(self, extension: str, error: Exception, *, tried_both: bool) -> None:
+        said = KeyError.__str__(error) if isinstance(error, KeyError) else str(error)
+        text = f"Caught exception when trying to load file of format [{extension}]: {said}"
+        if tried_both:
+            text = (
+                f"Caught multiple exceptions when trying to load file of format [{extension}]:\n"
+                f" - {type(error).__name__}: {said}\n"
+                " - InvalidFrontendLaunchFileError: The launch file may have a syntax error, or its format is unknown"
+            )
+        super().__init__(text)
 
 
 class LaunchDescriptionSource:
@@ -77,14 +95,11 @@ class PythonLaunchDescriptionSource(_LaunchFile):
             close = difflib.get_close_matches("generate_launch_description", functions, n=1)
             write = "Write: def generate_launch_description(): return LaunchDescription([…])"
             hint = f"Rename {close[0]}() to generate_launch_description()." if close else write
-            raise explained(_without_function(location), hint)
+            missing = "does not contain the required function 'generate_launch_description()'"
+            what = f"launch file at '{shown_path(location)}' {missing}"
+            raise explained(InvalidPythonLaunchFileError(what), hint)
         description: LaunchDescription = generate()
         return description
-
-
-def _without_function(path: str) -> InvalidPythonLaunchFileError:
-    missing = "does not contain the required function 'generate_launch_description()'"
-    return InvalidPythonLaunchFileError(f"launch file at '{shown_path(path)}' {missing}")
 
 
 class FrontendLaunchDescriptionSource(_LaunchFile):
@@ -100,7 +115,7 @@ class AnyLaunchDescriptionSource(_LaunchFile):
     """Gets the description from a launch file, whatever its format."""
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        """The description. Raises InvalidLaunchFileError caused by what went wrong in the file; its text is the real one."""
+        """The description. Raises InvalidLaunchFileError caused by what went wrong in the file."""
         extension = os.path.splitext(location)[1].lstrip(".")
         is_python = extension not in {"xml", "yaml", "yml"}
         source = PythonLaunchDescriptionSource if is_python else FrontendLaunchDescriptionSource
@@ -109,21 +124,5 @@ class AnyLaunchDescriptionSource(_LaunchFile):
         except Exception as error:
             if isinstance(error, FileNotFoundError) and error.filename == location:
                 raise
-            likely = [error]
-            if is_python and not isinstance(error, PackageNotFoundError):
-                # the real one says there, too, that the syntax may be wrong
-                likely.append(InvalidFrontendLaunchFileError())
-            elif location.endswith(("launch.xml", "launch.yaml", "launch.yml")):
-                likely.append(_why_no_python(location))
-            elif not is_python:
-                likely, extension = [], ""
-            raise InvalidLaunchFileError(extension, likely_errors=likely) from error
-
-
-def _why_no_python(path: str) -> Exception:
-    """What the real tool says besides of an XML or YAML file that is wrong, since it tries it as Python, too."""
-    try:
-        compile(Path(path).read_bytes(), path, "exec")
-    except (SyntaxError, ValueError) as error:
-        return error
-    return _without_function(path)
+            tried_both = is_python and not isinstance(error, PackageNotFoundError)
+            raise InvalidLaunchFileError(extension, error, tried_both=tried_both) from error

@@ -20,8 +20,8 @@ from .._entities import (
     text_of,
 )
 from .._entities import normalize_to_list_of_substitutions as pieces
-from ..frontend import Entity, InvalidLaunchFileError, actions, attribute, expose_action, pair, tags
-from ..launch_description_sources import AnyLaunchDescriptionSource, LaunchDescriptionSource
+from ..frontend import Entity, actions, attribute, expose_action, pair, tags
+from ..launch_description_sources import AnyLaunchDescriptionSource, InvalidLaunchFileError, LaunchDescriptionSource
 from ._configuration import SetLaunchConfiguration
 
 __all__ = ["GroupAction", "IncludeLaunchDescription", "OpaqueFunction", "TimerAction"]

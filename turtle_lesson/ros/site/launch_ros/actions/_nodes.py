@@ -12,7 +12,7 @@ from launch import Action, Condition, LaunchContext, LaunchDescriptionEntity, lo
 from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
 from launch.actions import ExecuteProcess
 from launch.actions._processes import Program, command_line
-from launch.frontend import anything, attribute, expose_action, pair, tags
+from launch.frontend import Entity, attribute, expose_action, pair, tags
 from launch.substitutions import SubstitutionFailure
 from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
@@ -197,7 +197,7 @@ def _parameter_file(context: LaunchContext, entry: Any) -> Path:
 class _ComposableAction(Action):
     """Base of the actions for composable nodes: it accepts any arguments, and a launch leaves it out with a warning."""
 
-    _tag: ClassVar = {"described": anything}
+    _tag: ClassVar = {"described": Entity.ignore_rest}
 
     def __init__(self, *, condition: Condition | None = None, **described: Any) -> None:
         super().__init__(condition=condition)
