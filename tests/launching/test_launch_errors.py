@@ -245,7 +245,7 @@ def test_imports_of_what_is_not_here(tmp_path: Path, line: str, said: str) -> No
         (node(parameters="[{'p': []}]"), "Expected a non-empty sequence, with items of uniform type."),
         (node(parameters="[{'p': [1, 'a']}]"), "Expected a non-empty sequence, with items of uniform type."),
         (node(parameters="[{'p': None}]"), "Unexpected type for parameter value None"),
-        (node(parameters="[{'p': TextSubstitution(text='null')}]"), "Allowed value types are bytes, bool, int"),
+        (node(parameters="[{'p': TextSubstitution(text='null')}]"), "Unexpected type for parameter value None"),
         (node(namespace="'two words'"), "Invalid namespace: namespace must not contain characters"),
         (
             node(condition="IfCondition('maybe')"),

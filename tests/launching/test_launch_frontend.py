@@ -383,12 +383,12 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
         ('<log message="$(vra x)"/>', "Unknown substitution: vra", "Did you mean 'var'?"),
         (
             '<log message="$(var)"/>',
-            "var substitution expects 1 or 2 arguments",
+            "the substitution var cannot have 0 arguments",
             "Write $(var <variable_name> <default>); put an argument with spaces in quotes.",
         ),
         (
             '<log message="$(var x"/>',
-            "Unexpected end-of-input, at line 1 col 8 of '$(var x'",
+            "the text '$(var x' is not understood from character 8 on",
             "Is the bracket of '$(var x' closed?",
         ),
     ],

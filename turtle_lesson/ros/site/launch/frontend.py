@@ -264,10 +264,8 @@ class _Reader:
         return found
 
     def _wrong(self, hint: str) -> SubstitutionSyntaxError:
-        what = "Unexpected end-of-input"
-        if self._here:
-            what = f"No terminal matches {self._here!r} in the current parser context"
-        return explained(SubstitutionSyntaxError(f"{what}, at line 1 col {self._at + 1} of {self._text!r}"), hint)
+        what = f"the text {self._text!r} is not understood from character {self._at + 1} on"
+        return explained(SubstitutionSyntaxError(what), hint)
 
 
 def _substitution_of(name: str, arguments: Sequence[list[Substitution]]) -> Substitution:
@@ -277,10 +275,8 @@ def _substitution_of(name: str, arguments: Sequence[list[Substitution]]) -> Subs
     """
     kind = _named(_substitutions, name, "Unknown substitution: ")
     known = inspect.signature(kind).parameters.values()
-    least, most = sum(each.default is each.empty for each in known), len(known)
-    if not least <= len(arguments) <= most:
-        number = f"{least} {'or' if most == least + 1 else 'to'} {most}" if least < most else str(most or "no")
-        error = TypeError(f"{name} substitution expects {number} {'argument' if number == '1' else 'arguments'}")
+    if not sum(each.default is each.empty for each in known) <= len(arguments) <= len(known):
         shown = " ".join([name, *(f"<{each.name}>" for each in known)])
+        error = TypeError(f"the substitution {name} cannot have {len(arguments)} arguments")
         raise explained(error, f"Write $({shown}); put an argument with spaces in quotes.")
     return kind(**{each.name: given for each, given in zip(known, arguments, strict=False)})

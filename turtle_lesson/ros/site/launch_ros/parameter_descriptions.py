@@ -56,29 +56,20 @@ def value_of(context: LaunchContext, value: Any) -> Any:
         return value.evaluate(context)
     if isinstance(value, PLAIN):
         return value
-    if isinstance(value, Substitution):
-        return _from_text(text_of(context, value))
-    if isinstance(value, Sequence) and not isinstance(value, bytes):
-        if any(isinstance(item, Substitution) for item in value):
-            return _from_text(text_of(context, value))
-        if any(isinstance(item, Sequence) and not isinstance(item, str) for item in value):
-            return uniform([safe_load(text_of(context, item)) for item in value])
+    many = isinstance(value, Sequence) and not isinstance(value, bytes)
+    if isinstance(value, Substitution) or (many and any(isinstance(item, Substitution) for item in value)):
+        text = text_of(context, value)
+        try:
+            return value_of(context, safe_load(text) if text else "")  # as launch_ros has it since its pull request 300
+        except TypeError as error:
+            raise explained(
+                error, f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text."
+            ) from None
+    if many and any(isinstance(item, Sequence) and not isinstance(item, str) for item in value):
+        return uniform([safe_load(text_of(context, item)) for item in value])
+    if many:
         return uniform(list(value))
     raise TypeError(f"Unexpected type for parameter value {value!r}; it can be a bool, int, float, text, or a list")
-
-
-def _from_text(text: str) -> Any:
-    """What YAML makes of a substitution's text; an empty text stays one (launch_ros, pull request 300)."""
-    value = safe_load(text) if text else ""
-    if isinstance(value, PLAIN):
-        return value
-    if isinstance(value, list):
-        return uniform(value)
-    error = TypeError(
-        "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], "
-        f"Sequence[float], Sequence[str]. Got {type(value)}."
-    )
-    raise explained(error, f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text.")
 
 
 def uniform(items: list[Any]) -> list[Any]:
