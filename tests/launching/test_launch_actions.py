@@ -128,18 +128,12 @@ def test_the_real_xacro(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert '<link name="left" w="3"/>' in capsys.readouterr().out
 
 
-def test_parameters_for_all_and_files_meant_for_one_node(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = write(tmp_path, "/**:\n  ros__parameters: {a: 1}\n", "p.yaml")
-    world, _ = launch(
-        tmp_path,
-        f"""
-        SetParameter('depth', 3), SetUseSimTime(True), SetParametersFromFile({str(file)!r}, node_name='one'),
-        {node(name="'one'")} {node(name="'two'")}
-        """,
-    )
+def test_parameters_for_all_nodes(tmp_path: Path) -> None:
+    setting = "SetParameter('depth', 3), SetUseSimTime(True), "
+    world, _ = launch(tmp_path, setting + node(name="'one'") + node(name="'two'", parameters="[{'depth': 4}]"))
     shared = ["-p", "depth:=3", "-p", "use_sim_time:=true"]
-    assert world.argv(0) == ["--ros-args", "-r", "__node:=one", *shared, "--params-file", str(file)]
-    assert world.argv(1) == ["--ros-args", "-r", "__node:=two", *shared]
+    assert world.argv(0) == ["--ros-args", "-r", "__node:=one", *shared]
+    assert world.argv(1) == ["--ros-args", "-r", "__node:=two", *shared, "-p", "depth:=4"]
 
 
 def test_substitutions_within_a_parameter_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

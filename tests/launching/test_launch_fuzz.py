@@ -18,7 +18,7 @@ from turtle_lesson.ros.launching import LaunchError, launch_file, show_arguments
 
 TAGS = [
     "arg", "let", "node_container", "node", "lifecycle_node", "executable", "group", "include", "log", "log_info", "timer",
-    "shutdown", "set_env", "unset_env", "append_env", "push_ros_namespace", "set_parameter", "set_parameters_from_file",
+    "shutdown", "set_env", "unset_env", "append_env", "push_ros_namespace", "set_parameter",
     "set_remap", "set_use_sim_time", "for_each", "ros_timer", "composable_node",
     "param", "remap", "env", "keep", "choice", "launch", "nonsense",
 ]  # fmt: skip

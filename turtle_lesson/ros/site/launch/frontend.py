@@ -115,6 +115,7 @@ _NOT_HERE = {
     "any": "$(any …) is not available here: use $(or …).",
     "if": "$(if …) is not available here: use $(eval …).",
     "param": "$(param …) is not available here: use $(var …) of an argument.",
+    "set_parameters_from_file": "It is not available here: give each node a param with the attribute from.",
     "lifecycle_transition": "It is not available here: give lifecycle_node the attribute autostart.",
     "string-join": "$(string-join …) is not available here: write the pieces one after the other.",
 }

@@ -2,9 +2,8 @@
 
 # ruff: noqa: F403  (each module says in its __all__ what it exports)
 
-from . import _lifecycle, _nodes, _settings
+from . import _lifecycle, _nodes
 from ._lifecycle import *
 from ._nodes import *
-from ._settings import *
 
-__all__ = [*_lifecycle.__all__, *_nodes.__all__, *_settings.__all__]
+__all__ = [*_lifecycle.__all__, *_nodes.__all__]

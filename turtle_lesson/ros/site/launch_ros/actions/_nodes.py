@@ -1,4 +1,4 @@
-"""`Node`, which starts a ROS node, and the actions of composable nodes, which a launch leaves out."""
+"""`Node`, which starts a ROS node, what holds for all nodes that follow, and composable nodes, which a launch leaves out."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NoReturn
 import yaml
 from launch import Action, Condition, LaunchContext, LaunchDescriptionEntity, logging
 from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
+from launch._entities import normalize_to_list_of_substitutions as pieces
 from launch.actions import ExecuteProcess
 from launch.actions._processes import Program, command_line
 from launch.frontend import Entity, attribute, expose_action, pair, tags
@@ -23,7 +24,10 @@ from turtle_lesson.ros.sim.errors import shown_path
 from ..parameter_descriptions import ParameterFile, as_argument, file_for_this_launch, parameters, parameters_in
 from ..substitutions import ExecutableInPackage
 
-__all__ = ["ComposableNodeContainer", "LoadComposableNodes", "Node"]
+__all__ = [
+    "ComposableNodeContainer", "LoadComposableNodes", "Node", "PushROSNamespace", "PushRosNamespace", "SetParameter",
+    "SetRemap", "SetUseSimTime",
+]  # fmt: skip
 
 
 def in_namespace(context: LaunchContext, namespace: str | None) -> str | None:
@@ -153,11 +157,8 @@ class Node(ExecuteProcess):
 
     def _parameter_words(self, context: LaunchContext) -> list[str]:
         words = []
-        for entry in [*context.launch_configurations.get("global_params", []), *self.__parameters]:
-            if isinstance(entry, tuple):  # SetParametersFromFile for nodes of one name
-                if entry[0] == self.expanded_node_name:
-                    words += ["--params-file", str(_parameter_file(context, entry[1]))]
-            elif isinstance(entry, Mapping):
+        for entry in [context.launch_configurations.get("global_params", {}), *self.__parameters]:
+            if isinstance(entry, Mapping):
                 for name, value in parameters_in(context, entry):
                     words += self._words_for(name, value)
             else:
@@ -192,6 +193,79 @@ def _parameter_file(context: LaunchContext, entry: Any) -> Path:
         text = f"Parameter file path is not a file: {shown_path(str(path))}"
         logging.get_logger("launch_ros.actions.node").warning(text)
     return path
+
+
+# -- what holds for all nodes that follow: parameters, remappings and namespaces. It is a launch configuration, since the end of
+# a group forgets those.
+
+
+@expose_action("set_parameter")
+class SetParameter(Action):
+    """Gives a parameter to every node that is started from here on in the same group."""
+
+    _tag: ClassVar = {"name": attribute("name"), "value": attribute("value", None)}
+
+    def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.name = pieces(name)
+        self.value = value
+
+    def execute(self, context: LaunchContext) -> None:
+        """Remember it."""
+        before = context.launch_configurations.get("global_params", {})
+        context.launch_configurations["global_params"] = {**before, text_of(context, self.name): self.value}
+
+
+@expose_action("set_use_sim_time")
+class SetUseSimTime(SetParameter):
+    """Has every node that is started from here on use simulated time, or not."""
+
+    _tag: ClassVar = {"value": attribute("value", bool)}
+
+    def __init__(self, value: bool | SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__("use_sim_time", value, **kwargs)
+
+
+@expose_action("set_remap")
+class SetRemap(Action):
+    """Gives a remapping to every node that is started from here on in the same group."""
+
+    _tag: ClassVar = {"src": attribute("from"), "dst": attribute("to")}
+
+    def __init__(self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.src, self.dst = pieces(src), pieces(dst)
+
+    def execute(self, context: LaunchContext) -> None:
+        """Remember it."""
+        before = context.launch_configurations.get("ros_remaps", [])
+        rule = (text_of(context, self.src), text_of(context, self.dst))
+        context.launch_configurations["ros_remaps"] = [*before, rule]
+
+
+@expose_action("push_ros_namespace")
+@expose_action("push-ros-namespace")
+class PushRosNamespace(Action):
+    """Has nodes start in a namespace, to the end of the group that it stands in."""
+
+    _tag: ClassVar = {"namespace": attribute("namespace")}
+
+    def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__namespace = pieces(namespace)
+
+    def execute(self, context: LaunchContext) -> None:
+        """Push it. Raises InvalidNamespaceException if it is not allowed."""
+        namespace = in_namespace(context, text_of(context, self.__namespace))
+        if namespace is not None:
+            validate_namespace(namespace)
+            context.launch_configurations["ros_namespace"] = namespace
+
+
+PushROSNamespace = PushRosNamespace
+
+
+# -- composable nodes ------------------------------------------------------------------------------------------------------
 
 
 class _ComposableAction(Action):
