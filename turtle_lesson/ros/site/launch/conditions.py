@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ._context import LaunchContext
-from ._entities import Condition, SomeSubstitutionsType, Substitution, described
+from ._entities import Condition, SomeSubstitutionsType, Substitution, described, text_of
 from .utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 __all__ = [
@@ -61,15 +61,12 @@ class LaunchConfigurationEquals(Condition):
     """Holds if the launch configuration has this value; for None, if it is not set at all."""
 
     def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
-        super().__init__()
-        self.__name = launch_configuration_name
-        self.__expected = None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
+        def holds(context: LaunchContext) -> bool:
+            context._configurations_read.add(launch_configuration_name)
+            expected = None if expected_value is None else text_of(context, expected_value)
+            return bool(context.launch_configurations.get(launch_configuration_name) == expected)
 
-    def evaluate(self, context: LaunchContext) -> bool:
-        """Whether it holds now."""
-        context._configurations_read.add(self.__name)
-        expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
-        return bool(context.launch_configurations.get(self.__name) == expected)
+        super().__init__(predicate=holds)
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):

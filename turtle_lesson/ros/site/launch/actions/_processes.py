@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any, ClassVar
@@ -49,22 +49,15 @@ class Program:
     shown: str
 
 
-def words_in(text: Iterable[Substitution]) -> list[list[Substitution]]:
-    """The words of a text; a substitution belongs to the text that it touches, and is never taken apart."""
-    words: list[list[Substitution]] = [[]]
-    for piece in text:
-        if not isinstance(piece, TextSubstitution):
-            words[-1].append(piece)
-            continue
-        if piece.text[:1].isspace():
-            words.append([])
-        for number, word in enumerate(shlex.split(piece.text)):
-            if number > 0:
-                words.append([])
-            words[-1].append(TextSubstitution(text=word))
-        if piece.text[-1:].isspace():
-            words.append([])
-    return [word for word in words if word]
+def words_in(text: Sequence[Substitution]) -> list[list[Substitution]]:
+    """The words of a text, as a shell takes it apart; a substitution is part of the word in which it stands."""
+    marked = "".join(
+        piece.text if isinstance(piece, TextSubstitution) else f"\0{number}\0" for number, piece in enumerate(text)
+    )
+    return [
+        [text[int(part)] if number % 2 else TextSubstitution(text=part) for number, part in enumerate(word.split("\0"))]
+        for word in shlex.split(marked)
+    ]
 
 
 def command_line(name: str, *, optional: bool = False) -> Reader:
