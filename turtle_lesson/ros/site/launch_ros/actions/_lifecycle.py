@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 
 import launch.logging
 from launch import Event, EventHandler, LaunchContext, LaunchDescriptionEntity
-from launch._entities import SomeEntitiesType, SomeSubstitutionsType, normalize_to_list_of_substitutions, text_of
-from launch.actions import EmitEvent, OpaqueFunction, RegisterEventHandler
+from launch._entities import SomeEntitiesType, SomeSubstitutionsType, text_of
+from launch.actions import EmitEvent, RegisterEventHandler
 from launch.frontend import attribute, expose_action
 from lifecycle_msgs.msg import Transition, TransitionEvent
 
@@ -107,39 +107,33 @@ class LifecycleNode(Node):
         **kwargs: Any,
     ) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
-        self.__autostart = normalize_to_list_of_substitutions(
-            str(autostart) if isinstance(autostart, bool) else autostart
-        )
+        self.__autostart = str(autostart) if isinstance(autostart, bool) else autostart
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the node started, and listen to it."""
-        entities = super().execute(context) or []
+        super().execute(context)
         helper = context._host.ros_helper()
 
         def changed(msg: TransitionEvent) -> None:
             context.emit_event_sync(StateTransition(action=self, msg=msg))
 
-        def change_state(context: LaunchContext) -> None:
-            transition: int = context.locals.event.transition_id
+        def is_asked(event: Event) -> bool:
+            return isinstance(event, ChangeState) and event.lifecycle_node_matcher(self)
 
+        def change_state(event: ChangeState, context: LaunchContext) -> None:
             def answered(success: bool) -> None:
                 if not success:
+                    transition = ChangeState.valid_transitions[event.transition_id]
                     launch.logging.get_logger("launch_ros.actions.lifecycle_node").error(
-                        f"Failed to make transition '{ChangeState.valid_transitions[transition]}' "
-                        f"for LifecycleNode '{self.node_name}'"
+                        f"Failed to make transition '{transition}' for LifecycleNode '{self.node_name}'"
                     )
 
-            helper.change_state(self.node_name, transition, answered)
+            helper.change_state(self.node_name, event.transition_id, answered)
 
         helper.watch(self.node_name, changed)
-        context.register_event_handler(
-            EventHandler(
-                matcher=lambda event: isinstance(event, ChangeState) and event.lifecycle_node_matcher(self),
-                entities=[OpaqueFunction(function=change_state)],
-            )
-        )
+        context.register_event_handler(EventHandler(matcher=is_asked, entities=change_state))
         if text_of(context, self.__autostart).lower() not in {"true", "1"}:
-            return entities
+            return None
         matcher = matches_node_name(self.node_name)
         configure, activate = (
             EmitEvent(event=ChangeState(lifecycle_node_matcher=matcher, transition_id=step))
@@ -148,4 +142,4 @@ class LifecycleNode(Node):
         configured = OnStateTransition(
             target_lifecycle_node=self, goal_state="inactive", entities=[activate], handle_once=True
         )
-        return [*entities, RegisterEventHandler(configured), configure]
+        return [RegisterEventHandler(configured), configure]
