@@ -1,8 +1,8 @@
 """`ros2 bag record`, `info` and `play`.
 
-There is no recording of the real ones in golden/: arguments, texts and formats are those of ros2bag, rosbag2_transport
-and rosbag2_py of Humble and Jazzy, as far as this simulation has them. What goes to stderr there goes to stderr here, and
-the exit code after a Ctrl-C is 0, as there: both verbs handle it themselves. There are no keyboard controls.
+There is no recording of the real ones: arguments, texts and formats are those of ros2bag, rosbag2_transport and rosbag2_py
+of Humble and Jazzy, as far as this simulation has them. What goes to stderr there goes to stderr here, and the exit code
+after a Ctrl-C is 0, as there: both verbs handle it themselves. There are no keyboard controls.
 """
 
 from __future__ import annotations

@@ -71,15 +71,11 @@ def _not_offered(what: str, name: str, own: str, known: dict[str, list[str]]) ->
     return CommandError(f"{waited}: no node offers {name}", hint)
 
 
-def _outcome(node: Node, future: Future, doing: str, server: tuple[str, Callable[[], bool]], until: float) -> Any:
-    """What a future brings, or None if that takes too long; meanwhile, look whether the server is still there.
+def _outcome(node: Node, future: Future, doing: str, name: str, is_there: Callable[[], bool], until: float) -> Any:
+    """What a future brings, or None if it has not come by a time (`until`, s of robot time).
 
-    Args:
-        doing: what fails if the future has an exception.
-        server: the name of the service or action, and whether it is there.
-        until: when to give up, in s of robot time.
+    Meanwhile, look whether the server of this name is still there. `doing` is what fails if the future has an exception.
     """
-    name, is_there = server
     while not spin_for(node, min(LOOK_AGAIN, until - now()), future):
         if not is_there():
             raise CommandError(f"{name} went away before it answered: did its node end, or did an error stop it?")
@@ -135,8 +131,8 @@ def call(args: Namespace) -> None:
             begun = now()
             stamp(setters, node)
             print(f"requester: making request: {request!r}\n")
-            future, server = client.call_async(request), (name, client.service_is_ready)
-            answer = _outcome(node, future, "calling service", server, begun + longest)
+            future = client.call_async(request)
+            answer = _outcome(node, future, "calling service", name, client.service_is_ready, begun + longest)
             if answer is None:
                 why = "is its node busy with something else, or did an error end its callback?"
                 raise CommandError(f"No answer from {name} in {longest:g} s of robot time: {why}")
@@ -215,15 +211,15 @@ def send_goal(args: Namespace) -> None:
         from rclpy.action import ActionClient
 
         client = ActionClient(node, kind, expanded(node, args.action_name, is_service=True))
-        goal, server = kind.Goal(), (client._name, client.server_is_ready)
+        goal, name = kind.Goal(), client._name
         populate(goal, values, is_goal=True)
         print("Waiting for an action server to become available...")
         if not client.wait_for_server(timeout_sec=PATIENCE):
-            raise _not_offered("action", client._name, kind._TYPE_NAME, actions(node))
+            raise _not_offered("action", name, kind._TYPE_NAME, actions(node))
         print(f"Sending goal:\n     {message_to_yaml(goal)}")
         until = now() + (args.seconds or LONGEST_ANSWER)
         future = client.send_goal_async(goal, print_feedback if args.feedback else None)
-        handle = _outcome(node, future, "sending goal", server, until)
+        handle = _outcome(node, future, "sending goal", name, client.server_is_ready, until)
         if handle is None:
             raise CommandError("No answer to the goal: is the server's node busy with something else?")
         if not handle.accepted:
@@ -232,7 +228,7 @@ def send_goal(args: Namespace) -> None:
         print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
         future = handle.get_result_async()
         try:
-            with_result = _outcome(node, future, "getting result", server, until)
+            with_result = _outcome(node, future, "getting result", name, client.server_is_ready, until)
         except KeyboardInterrupt:
             print("Canceling goal...")
             handle.cancel_goal_async()  # nothing can wait for the answer any more

@@ -17,8 +17,8 @@ from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..sim.errors import shown_path
 from .arguments import arg, cut, either, flag
-from .typed_values import suggest_type
-from .verb import CommandError, verb
+from .typed_values import interface_names, suggest_type
+from .verb import CommandError, print_names, verb
 
 SITE = Path(__file__).resolve().parents[1] / "site"
 
@@ -56,8 +56,7 @@ ANY_PACKAGE = arg("package_name", "name of the package; all packages if left out
 @verb("pkg list", in_cell=True)
 def _list(args: Namespace) -> None:
     """List the packages that can be found."""
-    for name in package_names():
-        print(name)
+    print_names(package_names())
 
 
 @verb("pkg prefix", PACKAGE, flag("--share", "the folder of its shared files instead"), in_cell=True)
@@ -131,40 +130,27 @@ KINDS = (
 TYPE = arg("type", "full name of the interface, such as geometry_msgs/msg/Twist")
 
 
-def _of_kind(kind: str) -> dict[str, list[str]]:
-    """All interfaces of a kind, by their packages."""
-    from rosidl_runtime_py import get_interfaces
-
-    return get_interfaces(folders=(kind,))
-
-
 @verb("interface list", *KINDS, in_cell=True)
 def _list_interfaces(args: Namespace) -> None:
     """List all interfaces."""
     for kind, title in TITLES.items():
         if args.kinds is None or kind in args.kinds:
             print(f"{title}:")
-            for package, names in _of_kind(kind).items():
-                for name in names:
-                    print(f"    {package}/{name}")
+            print_names([f"    {name}" for name in interface_names() if f"/{kind}/" in name])
 
 
 @verb("interface packages", *KINDS, in_cell=True)
 def _packages(args: Namespace) -> None:
     """List the packages that have interfaces."""
-    for package in sorted({package for kind in args.kinds or TITLES for package in _of_kind(kind)}):
-        print(package)
+    parts = [name.split("/") for name in interface_names()]
+    print_names(sorted({package for package, kind, _ in parts if kind in (args.kinds or TITLES)}))
 
 
 @verb("interface package", PACKAGE, in_cell=True)
 def _package(args: Namespace) -> None:
     """List the interfaces of a package."""
-    from rosidl_runtime_py import get_interfaces
-
     _check_package(args.package_name)
-    for package, names in get_interfaces([args.package_name]).items():
-        for name in names:
-            print(f"{package}/{name}")
+    print_names([name for name in interface_names() if name.startswith(f"{args.package_name}/")])
 
 
 def _check_package(name: str, base: str = "") -> None:

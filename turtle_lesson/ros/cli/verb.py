@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any
 
-from ..idl.names import did_you_mean, is_hidden, module_name
+from ..idl.names import did_you_mean, is_hidden, module_name, nearest
 from ..runtime.world import current_process
 from .arguments import DISCOVERY, STRETCH, Argument, Parser, cut
 
@@ -306,6 +306,5 @@ def absolute(node_name: str) -> str:
 def suggest(name: str, known: Iterable[str]) -> str:
     """`Did you mean '/navigator'?`, or nothing if nothing known is like that; a missing slash is found as well."""
     known = [each for each in known if each != name]
-    bare = name.lower().strip("/")
-    same = next((each for each in known if each.lower().strip("/") == bare), None)
+    same = nearest(name, known, 1.0)
     return f"Did you mean '{same}'?" if same else did_you_mean(name, known)
