@@ -128,9 +128,10 @@ class Kernel:
 
 @contextmanager
 def kernel() -> Iterator[Kernel]:
-    """A fresh kernel in an empty folder."""
+    """A fresh kernel in an empty folder, with a history of its own: SQLite opens a journal when another kernel writes to it."""
     with tempfile.TemporaryDirectory() as folder:
-        manager, client = start_new_kernel(cwd=folder, kernel_name="python3")
+        own = ["--HistoryManager.hist_file=:memory:"]
+        manager, client = start_new_kernel(cwd=folder, kernel_name="python3", extra_arguments=own)
         try:
             yield Kernel(client)
         finally:
