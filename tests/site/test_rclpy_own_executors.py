@@ -386,6 +386,24 @@ def test_functions_and_coroutines_are_run_alike() -> None:
     assert result_of(await_or_execute(str.upper, "x")) == "X"
 
 
+# ---------------------------------------------------------------- waiting for nodes
+
+
+def test_a_node_that_comes_is_waited_for(run: Run) -> None:
+    def late(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        time.sleep(1.05)
+        rclpy.spin(Node("late", namespace="robots"))
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = rclpy.create_node("n")
+        found.append((node.wait_for_node("/robots/late", 0.5), round(time.monotonic(), 1)))
+        found.append((node.wait_for_node("robots/late", -1), round(time.monotonic(), 1)))
+
+    assert run(program, late) == [(False, 0.5), (True, 1.1)]
+
+
 def test_a_count_goes_by_the_name_as_it_is_given_and_not_as_it_is_remapped(world: World) -> None:
     rclpy.init(args=["prog", "--ros-args", "-r", "a:=b"])
     node = rclpy.create_node("n")

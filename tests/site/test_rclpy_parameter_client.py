@@ -177,6 +177,16 @@ def test_an_answer_that_can_never_be_is_not_waited_for(run: Run) -> None:
     assert run(program) == ["explained"]
 
 
+def test_events_of_all_nodes_are_heard(client: AsyncParameterClient) -> None:
+    heard: list[Any] = []
+    client.on_parameter_event(
+        lambda event: heard.append((event.node, [each.name for each in event.changed_parameters]))
+    )
+    answer(client, client.set_parameters([Parameter("speed", value=1.0)]))
+    rclpy.spin_once(client.node, timeout_sec=0.5)
+    assert heard == [("/demo", ["speed"])]
+
+
 # ---------------------------------------------------------------- ParameterEventHandler
 
 

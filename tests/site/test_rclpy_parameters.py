@@ -294,6 +294,20 @@ def test_setting_atomically_is_all_or_nothing(node: Node) -> None:
     assert (good.successful, node.get_parameter("a").value, node.get_parameter("b").value) == (True, 5, 6)
 
 
+def test_a_new_descriptor_can_bring_a_value_that_suits_it(node: Node) -> None:
+    node.declare_parameter("speed", 5.0)
+    text = message_of(InvalidParameterValueException, lambda: node.set_descriptor("speed", _typed(within(0.0, 2.0))))
+    assert "Parameter speed out of range Min: 0.0, Max: 2.0, value: 5.0" in text
+    alternative = Parameter("", value=1.5).get_parameter_value()
+    assert node.set_descriptor("speed", _typed(within(0.0, 2.0)), alternative).double_value == 1.5
+    assert set_one(node, "speed", 3.0)[0] is False
+
+
+def _typed(descriptor: ParameterDescriptor) -> ParameterDescriptor:
+    descriptor.type = Type.DOUBLE.value
+    return descriptor
+
+
 # ---------------------------------------------------------------- callbacks
 
 

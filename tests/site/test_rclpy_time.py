@@ -622,3 +622,11 @@ def test_times_and_durations_survive_their_messages(seconds: int, nanoseconds: i
     assert moment.seconds_nanoseconds() == (seconds, nanoseconds)
     span = Duration(seconds=-seconds, nanoseconds=nanoseconds)
     assert Duration.from_msg(span.to_msg()) == span
+
+
+def test_a_time_becomes_a_date(world: World) -> None:
+    from datetime import datetime
+
+    assert Time(seconds=1_800_000_000.5).to_datetime() == datetime.fromtimestamp(1_800_000_000.5)
+    with pytest.raises(TypeError, match="Time object's clock type should be either ROS_TIME or SYSTEM_TIME"):
+        Time(clock_type=ClockType.STEADY_TIME).to_datetime()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.rmw.graph import NodeEntry, Topic
 from turtle_lesson.ros.rmw.names import Remap, remap
@@ -13,11 +13,18 @@ from turtle_lesson.ros.rmw.writer import Writer
 from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
+from ._blocking import wait_until
 from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError, refuse_destroyed, refuse_ended
 from .expand_topic_name import expand_topic_name
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from .validate_full_topic_name import validate_full_topic_name
 from .validate_topic_name import validate_topic_name
+
+if TYPE_CHECKING:
+    from .context import Context
+
+LOOK_AGAIN = 100_000_000
+"""How often, in ns, `wait_for_node` looks."""
 
 NamesAndTypes = list[tuple[str, list[str]]]
 FEEDBACK = "/_action/feedback"
@@ -27,6 +34,8 @@ NODE_S = "rcl node's"
 
 class NodeGraph:
     """Mixed into Node."""
+
+    _ros_context: Context
 
     def _ros_setup_graph(self, entry: NodeEntry, remaps: list[Remap]) -> None:
         self._ros_entry = entry
@@ -156,6 +165,20 @@ class NodeGraph:
     def get_action_server_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """The actions that a node offers (newer releases). Raises NodeNameNonExistentError."""
         return _actions(self.get_publisher_names_and_types_by_node(node_name, node_namespace))
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Wait until there is a node of this full name; False if there is none within the timeout (s; negative: none).
+
+        Newer than Humble.
+        """
+        name = f"/{fully_qualified_node_name.lstrip('/')}"
+
+        def is_there() -> bool:
+            return name in self.get_fully_qualified_node_names()
+
+        return wait_until(
+            is_there, None if timeout < 0 else timeout, LOOK_AGAIN, self._ros_context, f"wait_for_node {name}"
+        )
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has. The name is not remapped, nor in the next three."""

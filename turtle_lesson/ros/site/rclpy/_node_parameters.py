@@ -20,7 +20,7 @@ from .exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
-from .parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from .parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
 
 if TYPE_CHECKING:
     from .publisher import Publisher
@@ -131,6 +131,27 @@ class NodeParameters(NodeEntities):
             self._ros_descriptors[name] = known[name]
             self._ros_parameters[name] = parameter
         self._ros_event_publisher.publish(event)
+
+    def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
+        """Give a declared parameter another descriptor; returns the value in force.
+
+        `alternative_value`, an rcl_interfaces/msg/ParameterValue, is taken if the present one does not suit it. Raises
+        InvalidParameterValueException if neither does.
+        """
+        if not self._ros_is_declared(name):
+            return Parameter(name).get_parameter_value()
+        if self._ros_descriptors[name].read_only:
+            raise ParameterImmutableException(name)
+        choices = [self.get_parameter(name)]
+        if alternative_value is not None:
+            choices.append(Parameter(name, value=parameter_value_to_python(alternative_value)))
+        descriptor.name = name
+        reasons = [_why_refused(choice, descriptor, True) for choice in choices]
+        if "" not in reasons:
+            raise InvalidParameterValueException(name, choices[-1].value, reasons[-1])
+        self._ros_parameters[name] = choices[reasons.index("")]
+        self._ros_descriptors[name] = descriptor
+        return self._ros_parameters[name].get_parameter_value()
 
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], Any]) -> None:
         """Have `callback(parameters)` decide about changes: it returns an rcl_interfaces/msg/SetParametersResult."""

@@ -10,7 +10,8 @@ from .callback_groups import CallbackGroup
 from .client import POLL, Client
 from .parameter import Parameter, parameter_dict_from_yaml_file
 from .parameter_service import SERVICES
-from .qos import QoSProfile, qos_profile_services_default
+from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
+from .subscription import Subscription
 from .task import Future
 
 if TYPE_CHECKING:
@@ -104,6 +105,30 @@ class AsyncParameterClient:
         """Set all parameters of a YAML file, or none."""
         found = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
         return self.set_parameters_atomically(list(found.values()), callback)
+
+    def on_parameter_event(
+        self,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile = qos_profile_parameter_events,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> Subscription:
+        """Have `callback(event)` called for what becomes of parameters, of any node (rcl_interfaces/msg/ParameterEvent)."""
+        from rcl_interfaces.msg import ParameterEvent
+
+        return self.node.create_subscription(
+            ParameterEvent,
+            "/parameter_events",
+            callback,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
+        )
 
 
 def _messages(parameters: Sequence[Any]) -> list[Any]:

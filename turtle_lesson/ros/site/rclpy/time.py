@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from functools import total_ordering
 from typing import Any
 
@@ -51,6 +52,12 @@ class Time:
 
         seconds, nanoseconds = self.seconds_nanoseconds()
         return Message(sec=seconds, nanosec=nanoseconds)
+
+    def to_datetime(self) -> datetime:
+        """As a date and time of day, in the computer's time zone. Raises TypeError for steady time, which has none."""
+        if self.clock_type not in (ClockType.ROS_TIME, ClockType.SYSTEM_TIME):
+            raise TypeError("Time object's clock type should be either ROS_TIME or SYSTEM_TIME")
+        return datetime.fromtimestamp(self._nanoseconds / S_TO_NS)
 
     @classmethod
     def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
