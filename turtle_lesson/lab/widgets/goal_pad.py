@@ -127,12 +127,12 @@ class GoalPad(LiveWidget):
         pose = recorder.poses.last()
         if self.is_new("pose", pose):
             self.pose = pack(pose[1:] or [math.nan] * 4)
-        # in the same frame as the pose, to which the browser joins it: that line never shows a way that was not driven
-        if self._trail.follow(recorder.poses):
-            if self.is_new("trail", self._trail.changes):
-                pieces = [np.concatenate([BREAK, piece]) for piece in self._trail.old]
-                self.trail = b"".join(map(pack, pieces))
-            self.tail = pack(np.concatenate([BREAK, self._trail.tip[:-1]]))
+            # in the same frame as the pose, to which the browser joins it: that line never shows a way that was not driven
+            if self._trail.follow(recorder.poses):
+                if self.is_new("trail", self._trail.changes):
+                    pieces = [np.concatenate([BREAK, piece]) for piece in self._trail.old]
+                    self.trail = b"".join(map(pack, pieces))
+                self.tail = pack(np.concatenate([BREAK, self._trail.tip[:-1]]))
         scanned = recorder.scans.last()
         if scanned and self.backend.now - recorder.seconds(scanned[0]) > STALE:
             self.scanned_from = b""
