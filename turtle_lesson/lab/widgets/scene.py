@@ -106,8 +106,7 @@ class Scene(LiveWidget):
             if self.is_new("trail", self._trail.changes):
                 self.trail = scene_commands.trail("lab/trail", self._trail.old)
             self.tip = scene_commands.trail("lab/tip", [self._trail.tip])
-        scanned_from = recorder.pose_at_scan()
-        if scanned_from is not None and self.is_new("scan", recorder.scans.last()):
+        if self.is_new("scan", recorder.scans.last()) and (scanned_from := recorder.pose_at_scan()) is not None:
             self.scan = scene_commands.scan(recorder.last_scan, *scanned_from)
         standing = list(recorder.obstacles.values())
         if self.is_new("obstacles", standing):
