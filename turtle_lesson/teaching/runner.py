@@ -80,11 +80,10 @@ def _run(runner: Runner, copy: Copy, stopped: Callable[[], bool]) -> Seen:
 
 def checking_code() -> dict[str, Any]:
     """What is sent to a copy's kernel for each check: the observer and the checking code, compiled, and where the lesson is."""
-    files = sorted(file for pattern in FRESH for file in HOME.glob(pattern))
-    names = [".".join((HOME.name, *file.relative_to(HOME).with_suffix("").parts)) for file in files]
-    modules = {
-        name.removesuffix(".__init__"): (str(file), _compiled(file)) for name, file in zip(names, files, strict=True)
-    }
+    modules = {}
+    for file in sorted(file for pattern in FRESH for file in HOME.glob(pattern)):
+        name = ".".join(file.relative_to(HOME.parent).with_suffix("").parts)
+        modules[name.removesuffix(".__init__")] = (str(file), _compiled(file))
     return {"observer": _compiled(Path(__file__).with_name("observer.py")), "modules": modules, "home": str(HOME)}
 
 
@@ -124,11 +123,10 @@ class Runner:
         home.mkdir()
         desk.mkdir()
         take_fonts(home)
-        worker = [sys.executable, "-m", "turtle_lesson.teaching.worker", str(desk)]
         # A socket, where there is one: a pipe could be opened by the copy, too, through /proc.
         ours, theirs = socket.socketpair() if os.name == "posix" else (None, None)
         process = subprocess.Popen(
-            [*worker, str(self._timeout), str(self._memory)],
+            [sys.executable, "-m", "turtle_lesson.teaching.worker", str(desk), str(self._timeout), str(self._memory)],
             cwd=desk,
             env=environment(home, mark, str(HOME.parent)),
             stdin=subprocess.PIPE,
@@ -136,14 +134,15 @@ class Runner:
             stderr=subprocess.DEVNULL,
             start_new_session=True,
         )
+        said: Any = process.stdout
+        if ours is not None and theirs is not None:
+            theirs.close()
+            said = ours.makefile("rb")
+            ours.close()  # in truth when that file is closed
         groups = [process.pid]
         lines: Queue[bytes] = Queue()
-        with contextlib.ExitStack() as open_files:
-            if theirs is not None and ours is not None:
-                theirs.close()
-                open_files.enter_context(ours)
-            file = open_files.enter_context(ours.makefile("rb") if ours is not None else process.stdout)  # type: ignore[arg-type]
-            reader = Thread(target=_read, args=(file, lines), daemon=True)
+        with said:
+            reader = Thread(target=_read, args=(said, lines), daemon=True)
             reader.start()
             try:
                 with contextlib.suppress(BrokenPipeError):
@@ -186,26 +185,23 @@ def _read(file: Any, lines: Queue[bytes]) -> None:
 
 
 def _note(seen: Seen, found: dict[str, Any]) -> None:
-    """Add what the worker has found."""
-    if found.get("end"):
-        seen.problem = ""
-    if "check" in found:
-        seen.replaced += [each for each in found["replaced"] if each not in seen.replaced]
-        _keep_the_best(seen.rows, found, seen.replaced)
-    elif "error" in found:
-        seen.errors.append(found["error"])
-    seen.problem = found.get("problem", seen.problem)
+    """Add what the worker has found.
+
+    The rows of a check take the place of earlier ones that were not all good; nothing is good in a copy that has replaced
+    checking code.
+    """
+    seen.problem = found.get("problem", "" if found.get("end") else seen.problem)
     seen.metadata = found.get("metadata", seen.metadata)
     seen.asked = found.get("asked", seen.asked)
-
-
-def _keep_the_best(rows: dict[str, list[dict[str, str]]], found: dict[str, Any], replaced: list[str]) -> None:
-    """Note the rows of a check, unless they were good before. Nothing is good in a copy that has replaced checking code."""
-    name, seen = str(found["check"]), [{key: str(value) for key, value in row.items()} for row in found["rows"]]
-    miss = ("a lesson to look at, and an end of the check", "there was none")
-    if replaced:
-        miss = ("the lesson's own code, as it was installed", f"this copy replaced {', '.join(replaced)}")
-    if replaced or not seen:
-        seen.insert(0, {"mark": BAD, "expected": miss[0], "seen": miss[1], "next": ""})
-    if name not in rows or any(row["mark"] != GOOD for row in rows[name]):
-        rows[name] = seen
+    if "check" in found:
+        seen.replaced += [each for each in found["replaced"] if each not in seen.replaced]
+        name, rows = str(found["check"]), [{key: str(value) for key, value in row.items()} for row in found["rows"]]
+        miss = ("a lesson to look at, and an end of the check", "there was none")
+        if seen.replaced:
+            miss = ("the lesson's own code, as it was installed", f"this copy replaced {', '.join(seen.replaced)}")
+        if seen.replaced or not rows:
+            rows.insert(0, {"mark": BAD, "expected": miss[0], "seen": miss[1], "next": ""})
+        if name not in seen.rows or any(row["mark"] != GOOD for row in seen.rows[name]):
+            seen.rows[name] = rows
+    elif "error" in found:
+        seen.errors.append(found["error"])
