@@ -64,23 +64,20 @@ def find(paths: Iterable[Path]) -> list[Copy]:
     found: dict[Copy, Path] = {}
     for path in paths:
         if path.is_dir():
-            inside = sorted(path.rglob("*.ipynb"))
-            found |= dict.fromkeys((Copy(each) for each in inside if not _is_hidden(each.relative_to(path))), path)
+            inside = [each for each in sorted(path.rglob("*.ipynb")) if not _is_hidden(each.relative_to(path))]
+            found |= {Copy(each): path for each in inside}
         elif path.suffix.lower() == ".zip" and path.exists():
             try:
                 with zipfile.ZipFile(path) as archive:
-                    names = [name for name in sorted(archive.namelist()) if name.lower().endswith(".ipynb")]
+                    names = sorted(archive.namelist())
             except zipfile.BadZipFile:
                 raise PageError(f"{path} is not a zip file") from None
-            found |= dict.fromkeys(
-                (Copy(path / name, member=name) for name in names if not _is_hidden(Path(name))), path
-            )
+            names = [name for name in names if name.lower().endswith(".ipynb") and not _is_hidden(Path(name))]
+            found |= {Copy(path / name, member=name): path for name in names}
         else:
             found[Copy(path)] = path
-    owned: dict[str, list[Copy]] = {}
-    for copy in _named(found):
-        owned.setdefault(copy.learner or str(copy.path), []).append(copy)
-    return [copy for copies in owned.values() for copy in copies]
+    order: dict[str, int] = {}
+    return sorted(_named(found), key=lambda copy: order.setdefault(copy.learner or str(copy.path), len(order)))
 
 
 def _is_hidden(path: Path) -> bool:
