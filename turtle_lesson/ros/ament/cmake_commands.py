@@ -202,8 +202,8 @@ class InterfaceCheck:
             except InvalidDefinition as error:
                 if error.ros_error != "UnknownMessageType":
                     raise self._adapter(error) from None
-                where = file if error.line is None else f"{file}, line {error.line}"
-                raise self._uncompiled(file, error.line, error.reason, _located(where, error.hint)) from None
+                hint = _located(file, error.line, error.hint)
+                raise self._uncompiled(file, error.line, error.reason, hint) from None
             definition = types.definition(f"{self._found.name}/{interface}")
             fields = [field for part in (definition, *definition.parts) for field in reversed(part.fields)]
             lines = {field.type.package: field.line for field in fields if field.type.package}
@@ -245,21 +245,20 @@ class InterfaceCheck:
             raise self._adapter_text(f"{type(error).__name__}: {error}", f"{name} must be plain text.") from None
 
     def _adapter(self, error: InvalidDefinition) -> BuildFailure:
-        lines = []
+        text = f"{error.qualified_ros_error}: {error.reason}"
         if error.printed:
-            lines.append(error.printed)
+            text = f"{error.printed}\n\n{text}"
         elif error.line_text is not None and error.interface and error.ros_error != "ValueError":
             package, _, kind = error.interface.split("/")
-            lines.append(f"Error processing '{error.line_text}' of '{package}/{kind}': '{error.reason}'")
-        lines.append(f"{error.qualified_ros_error}: {error.reason}")
-        where, hint = "", error.hint
-        if error.file is not None:
-            where = shown_path(error.file) + ("" if error.line is None else f", line {error.line}")
-            if error.line is None and error.ros_error == "InvalidResourceName":
-                words = re.split(r"[^A-Za-z0-9]+", Path(error.file).stem)
-                good = "".join(word[:1].upper() + word[1:] for word in words) + Path(error.file).suffix
-                hint = f"Name the file {good}, beginning with a capital letter and without '_'"
-        return self._adapter_text("\n\n".join(lines), _located(where, hint))
+            text = f"Error processing '{error.line_text}' of '{package}/{kind}': '{error.reason}'\n\n{text}"
+        if error.file is None:
+            return self._adapter_text(text, error.hint)
+        hint = error.hint
+        if error.line is None and error.ros_error == "InvalidResourceName":
+            words = re.split(r"[^A-Za-z0-9]+", Path(error.file).stem)
+            good = "".join(word[:1].upper() + word[1:] for word in words) + Path(error.file).suffix
+            hint = f"Name the file {good}, beginning with a capital letter and without '_'"
+        return self._adapter_text(text, _located(shown_path(error.file), error.line, hint))
 
     def _adapter_text(self, text: str, hint: str) -> BuildFailure:
         whole = f"execute_process(/usr/bin/python3 -m rosidl_adapter) returned error code 1:\n\n{text}\n"
@@ -268,10 +267,9 @@ class InterfaceCheck:
         )
 
 
-def _located(where: str, hint: str) -> str:
+def _located(file: str, line: int | None, hint: str) -> str:
     """A hint that begins with the place of the fault."""
-    if not where:
-        return hint
+    where = file if line is None else f"{file}, line {line}"
     return f"{where}: {hint}" if hint else f"It is in {where}."
 
 
@@ -287,8 +285,8 @@ def interface_items(found: Found, files: list[str]) -> Iterator[Item]:
     yield Item(f"{folder}/__init__.py")
     for kind in FOLDERS:
         modules = {Path(file).stem: module_name(Path(file).stem) for file in files if file.startswith(f"{kind}/")}
-        lines = [f"from {name}.{kind}.{module} import {each}  # noqa: F401\n" for each, module in modules.items()]
-        if lines:
+        if modules:
+            lines = [f"from {name}.{kind}.{module} import {each}  # noqa: F401\n" for each, module in modules.items()]
             yield Item(f"{folder}/{kind}/__init__.py", text="".join(lines))
         for each, module in modules.items():
             text = filled("interface module", package=name, kind=kind, name=each)
