@@ -128,7 +128,7 @@ class Player:
             raise RuntimeError(
                 "play() needs a notebook, whose event loop runs between cells; in a script use lesson.run(seconds)"
             ) from None
-        self._watch.start(real_monotonic())
+        self._watch = Stopwatch(real_monotonic())
         self._task = loop.create_task(self._play())
 
     def pause(self) -> None:
@@ -181,15 +181,11 @@ class Player:
 
 
 class Stopwatch:
-    """Real time since a start, and how fast robot time went by in its last second."""
+    """Real time since a moment (s), and how fast robot time went by in its last second."""
 
     WINDOW = 1.0
 
-    def __init__(self) -> None:
-        self.start(0.0)
-
-    def start(self, now: float) -> None:
-        """Begin anew at this moment (s)."""
+    def __init__(self, now: float = 0.0) -> None:
         self._began = now
         self._marks: deque[tuple[float, int]] = deque([(now, 0)])
 
@@ -207,8 +203,6 @@ class Stopwatch:
     @property
     def speed(self) -> float:
         """Robot time by real time in the last second; 0 before there is a second mark."""
-        if len(self._marks) < 2:
-            return 0.0
         (first, before), (last, after) = self._marks[0], self._marks[-1]
         return (after - before) / NANOSECONDS / max(last - first, 1e-9)
 
