@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rosbags.interfaces import Connection, Qos
 
-STORAGES = {"mcap": ".mcap", "sqlite3": ".db3"}
+STORAGES = ("mcap", "sqlite3")
 FORMAT_VERSION: Literal[8] = 8
 
 CHUNK_SIZE = 1 << 16
@@ -41,9 +41,6 @@ CHUNK_CHECKSUM = 1 + 8 + 3 * 8
 
 
 SEPARATOR = "=" * 80
-
-INFINITE = (9_223_372_036, 854_775_807)
-"""An endless duration, in s and ns, as rmw writes it: a deadline or lifespan that nobody has set."""
 
 
 class BagWriter:
@@ -58,8 +55,6 @@ class BagWriter:
         if os.path.lexists(folder):
             raise BagError(f"Output folder '{folder}' already exists.")
         self.folder = folder
-        self.storage = storage
-        self.file = folder / f"{folder.name}_0{STORAGES[storage]}"
         self.count = 0
         self._connections: dict[tuple[str, str], Any] = {}
         self._writer = _open(folder, storage)
@@ -172,11 +167,17 @@ def _close(writer: Any, folder: Path) -> None:
 
 def schema_text(message_class: Any) -> str:
     """The `ros2msg` text of a message class: its definition with those of its fields' messages."""
-    parts = [_own_text(message_class)]
-    for name, part in _messages_within(message_class).items():
-        package, _, base = name.split("/")
-        parts.append(f"MSG: {package}/{base}\n{_own_text(part)}")
-    return f"{SEPARATOR}\n".join(parts)
+    parts: dict[str, str] = {}
+
+    def add_parts_of(whole: Any) -> None:
+        for part in [kind.element_class for kind in whole._KINDS]:
+            if part is not None and part._TYPE_NAME not in parts:
+                package, _, base = part._TYPE_NAME.split("/")
+                parts[part._TYPE_NAME] = f"MSG: {package}/{base}\n{_own_text(part)}"
+                add_parts_of(part)
+
+    add_parts_of(message_class)
+    return f"{SEPARATOR}\n".join([_own_text(message_class), *parts.values()])
 
 
 def type_hash(message_class: Any, text: str) -> str:
@@ -197,17 +198,6 @@ def type_hash(message_class: Any, text: str) -> str:
         raise UnrecordableType(f"messages of type {name} cannot be recorded{wide}: {error}") from error
 
 
-def _messages_within(message_class: Any, found: dict[str, Any] | None = None) -> dict[str, Any]:
-    """The classes of the messages that a message is made of, at any depth, by type name."""
-    found = {} if found is None else found
-    for kind in message_class._KINDS:
-        part = kind.element_class
-        if part is not None and part._TYPE_NAME not in found:
-            found[part._TYPE_NAME] = part
-            _messages_within(part, found)
-    return found
-
-
 def _own_text(message_class: Any) -> str:
     """The definition as its author wrote it; the rules of definitions keep separator lines out of it."""
     text: str = message_class._DEFINITION.text.replace("\r\n", "\n")
@@ -216,26 +206,21 @@ def _own_text(message_class: Any) -> str:
 
 def as_recorded(profile: QoSProfile) -> Qos:
     """A publisher's profile as a bag holds it, with what it left open filled in."""
-    from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, ReliabilityPolicy
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
-    policies: dict[str, Any] = vars(profile)
-
-    def chosen(name: str, default: int) -> int:
-        return int(policies[name]) or default
-
-    times = [policies[name].nanoseconds for name in ("deadline", "lifespan", "liveliness_lease_duration")]
-    deadline, lifespan, lease = (QosTime(*(divmod(time, NANOSECONDS) if time else INFINITE)) for time in times)
+    used = profile._as_used()
+    times = (used.deadline, used.lifespan, used.liveliness_lease_duration)
+    deadline, lifespan, lease = (QosTime(*divmod(time.nanoseconds, NANOSECONDS)) for time in times)
     return Qos(
-        QosHistory(chosen("history", HistoryPolicy.KEEP_LAST)),
-        policies["depth"],
-        QosReliability(chosen("reliability", ReliabilityPolicy.RELIABLE)),
-        QosDurability(chosen("durability", DurabilityPolicy.VOLATILE)),
+        QosHistory(used.history),
+        profile.depth,
+        QosReliability(used.reliability),
+        QosDurability(used.durability),
         deadline,
         lifespan,
-        QosLiveliness(chosen("liveliness", LivelinessPolicy.AUTOMATIC)),
+        QosLiveliness(used.liveliness),
         lease,
-        policies["avoid_ros_namespace_conventions"],
+        profile.avoid_ros_namespace_conventions,
     )
 
 
