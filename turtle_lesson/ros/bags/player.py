@@ -5,7 +5,8 @@ Facts: rosbag2_transport's qos.cpp (adapt_offer_to_recorded_offers).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rosbags.interfaces import Qos
 
-    from .bag import Bag, Message
+    from .bag import Bag
     from .scan import BagTopic
 
 NODE = "rosbag2_player"
@@ -58,7 +59,7 @@ class Player:
     def __init__(self, node: Any, bag: Bag, how: Playback, say: Say) -> None:
         self._bag = bag
         self._how = how
-        self._unreadable: dict[str, int] = {}
+        self._unreadable: Counter[str] = Counter()
         self.published = 0
         self._publishers: dict[tuple[str, str], Any] = {}
         for topic in bag.topics:
@@ -80,19 +81,29 @@ class Player:
     def play(self, until: int | None = None) -> bool:
         """Play the bag; False if the virtual time `until` (ns) came first."""
         simulation = self._simulation
+        self._first = first = (self._bag.start or 0) + round(self._how.start_offset * NANOSECONDS)
+        last = inf if self._how.duration is None else first + round(self._how.duration * NANOSECONDS)
         while True:
             self._sleep_until(simulation.now + round(self._how.delay * NANOSECONDS))
             self._began = simulation.now
-            self._first = first = (self._bag.start or 0) + round(self._how.start_offset * NANOSECONDS)
             if self._how.clock:
                 self._next = self._began
-            for message in self._wanted(first):
+            for message in self._bag.messages():
+                publisher = self._publishers.get((message.topic, message.type_name))
+                if publisher is None or message.time < first:
+                    continue
+                if message.time > last:
+                    break
                 due = self._began + round((message.time - first) / self._how.rate)
                 if until is not None and due >= until:
                     self._sleep_until(until)
                     return False
                 self._sleep_until(due)
-                self._publish(message)
+                try:
+                    publisher.publish(message.data)
+                    self.published += 1
+                except ValueError:
+                    self._unreadable[message.topic] += 1
             simulation.sleep_until(simulation.now + LATENCY + LATENCY_SPREAD)  # what was sent last shall arrive, too
             if not self._how.loop or not self.published:
                 return True
@@ -107,21 +118,6 @@ class Player:
             self._clock.publish(message)
             self._next += round(NANOSECONDS / self._how.clock)
         self._simulation.sleep_until(time)
-
-    def _wanted(self, first: int) -> Iterator[Message]:
-        end = None if self._how.duration is None else first + round(self._how.duration * NANOSECONDS)
-        for message in self._bag.messages():
-            if message.time >= first and (message.topic, message.type_name) in self._publishers:
-                if end is not None and message.time > end:
-                    return
-                yield message
-
-    def _publish(self, message: Message) -> None:
-        try:
-            self._publishers[message.topic, message.type_name].publish(message.data)
-            self.published += 1
-        except ValueError:
-            self._unreadable[message.topic] = self._unreadable.get(message.topic, 0) + 1
 
     def complaints(self) -> list[str]:
         """A sentence for each topic with messages that are spoiled, and one if there was nothing to play."""
