@@ -192,9 +192,8 @@ class StaticPublisher(Node):
 
     def __init__(self, message: TransformStamped) -> None:
         letters = "".join(random.choice(string.ascii_letters + string.digits) for _ in range(16))
-        shift, turn = map(message_to_ordereddict, (message.transform.translation, message.transform.rotation))
-        parameters = {f"translation.{axis}": value for axis, value in shift.items()}
-        parameters |= {f"rotation.{axis}": value for axis, value in turn.items()}
+        figures = message_to_ordereddict(message.transform)
+        parameters = {f"{part}.{axis}": value for part, axes in figures.items() for axis, value in axes.items()}
         parameters |= {"frame_id": message.header.frame_id, "child_frame_id": message.child_frame_id}
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         super().__init__(f"static_transform_publisher_{letters}", parameter_overrides=overrides)
@@ -203,7 +202,7 @@ class StaticPublisher(Node):
         self._broadcaster = StaticTransformBroadcaster(self)
         message.header.stamp = self.get_clock().now().to_msg()
         self._broadcaster.sendTransform(message)
-        translation, rotation = (", ".join(f"'{value:f}'" for value in part.values()) for part in (shift, turn))
+        translation, rotation = (", ".join(f"'{value:f}'" for value in axes.values()) for axes in figures.values())
         told = f"translation: ({translation})\nrotation: ({rotation})\n"
         told += f"from '{message.header.frame_id}' to '{message.child_frame_id}'"
         self.get_logger().info(f"Spinning until stopped - publishing transform\n{told}")
