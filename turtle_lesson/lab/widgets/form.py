@@ -195,7 +195,7 @@ class Form(LiveWidget):
         if self.errors:
             self.line = ""
             return
-        values = self._whole.changed() or {}
+        values = self._whole.value()
         self.line = f"ros2 service call {self.name} {self.type_name} {_yaml(values)}"
         if self.kind == "topic":
             self.line = publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)

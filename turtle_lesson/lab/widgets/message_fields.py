@@ -159,6 +159,8 @@ class Part:
         self.name, self.kind, self.whole = name, kind, whole
         self.constants = constants or {}
         self.parts: list[Part] = []
+        self.default: Any = {}
+        """The first value, as YAML has it; of a message, none of its fields."""
         self._fill(value)
 
     def _fill(self, value: Any) -> None:
@@ -183,9 +185,14 @@ class Part:
         """
         raise NotImplementedError
 
+    def value(self) -> Any:
+        """The value, as YAML has it: of a message, the fields that are not the default. Raises ValueError as `build` does."""
+        raise NotImplementedError
+
     def changed(self) -> Any:
         """The value as YAML has it, as far as it is not the default, or None."""
-        raise NotImplementedError
+        value = self.value()
+        return None if same(value, self.default) else value
 
     def state(self) -> dict[str, Any]:
         """What the browser needs to draw it."""
@@ -202,7 +209,6 @@ class Single(Part):
         self.constants = {name: each for name, each in self.constants.items() if type(each) in alike}
 
     def value(self) -> Any:
-        """The value, as YAML has it. Raises ValueError, in words, for what the field cannot be."""
         if isinstance(self.text, bool):
             return self.text
         if self.text.strip() in self.constants:
@@ -216,10 +222,6 @@ class Single(Part):
     def build(self, now: Callable[[], Any]) -> Any:
         value = self.value()
         return bytes([value]) if self.kind.base == "octet" else value
-
-    def changed(self) -> Any:
-        value = self.value()
-        return None if same(value, self.default) else value
 
     def set(self, text: Any) -> None:
         """Put a text into the field; true or false into a checkbox. Raises ValueError for anything else."""
@@ -264,11 +266,10 @@ class Group(Part):
             setattr(message, part.name, part.build(now))
         return message
 
-    def changed(self) -> Any:
+    def value(self) -> Any:
         if self.now:  # a time that is filled in later is left out
-            return None
-        found = {part.name: value for part in self.parts if (value := part.changed()) is not None}
-        return found or None
+            return {}
+        return {part.name: value for part in self.parts if (value := part.changed()) is not None}
 
     def singles(self) -> Iterator[Single]:
         return iter(()) if self.now else super().singles()
@@ -284,7 +285,7 @@ class Rows(Part):
     def _fill(self, value: Any) -> None:
         for each in value:
             self._append(each)
-        self.default = self._values()
+        self.default = self.value()
 
     def _append(self, value: Any) -> None:
         self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self.constants, self))
@@ -317,12 +318,8 @@ class Rows(Part):
     def build(self, now: Callable[[], Any]) -> list[Any]:
         return [row.build(now) for row in self.parts]
 
-    def changed(self) -> Any:
-        values = self._values()
-        return None if same(values, self.default) else values
-
-    def _values(self) -> list[Any]:
-        return [row.value() if isinstance(row, Single) else row.changed() or {} for row in self.parts]
+    def value(self) -> Any:
+        return [row.value() for row in self.parts]
 
     def state(self) -> dict[str, Any]:
         own = {"control": "rows", "full": self.why_full, "fixed": self.kind.array == "fixed"}
