@@ -166,15 +166,12 @@ class Recording:
 
     def window(self, table: Table, since: float | None = None, until: float | None = None) -> np.ndarray:
         """The rows of a table from `since` to `until` (seconds since `origin`, both ends included)."""
-        import numpy as np
-
         rows = table.array()
-        chosen = np.ones(len(rows), bool)
         if since is not None:
-            chosen &= rows["stamp"] >= self.origin + nanoseconds("since", since)
+            rows = rows[rows["stamp"] >= self.origin + nanoseconds("since", since)]
         if until is not None:
-            chosen &= rows["stamp"] <= self.origin + nanoseconds("until", until)
-        return rows[chosen]
+            rows = rows[rows["stamp"] <= self.origin + nanoseconds("until", until)]
+        return rows
 
     def span(self, table: Table) -> str:
         """The time that a table's rows span: "0.02 s to 24.51 s of robot time"."""
