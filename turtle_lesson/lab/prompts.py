@@ -13,19 +13,16 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
-_OPENING = {
-    "debugging": "I am learning ROS 2 (Humble, rclpy) and my system does not do what it should. Please help me find the "
-    "cause.",
-    "code review": "I am learning ROS 2 (Humble, rclpy). Please review my code against the specification below.",
-}
-_QUESTIONS = {
+_KINDS = {
     "debugging": (
+        "I am learning ROS 2 (Humble, rclpy) and my system does not do what it should. Please help me find the cause.",
         "Say in one or two sentences what you think is wrong, and which lines of the error, graph or log say so.",
         "Name the one command (ros2 …) or the one print that would prove or disprove it, and what I should see.",
         "Only then propose a change, the smallest one. Keep to the specification; do not rewrite everything.",
         "If what you need is not here, ask me for it.",
     ),
     "code review": (
+        "I am learning ROS 2 (Humble, rclpy). Please review my code against the specification below.",
         "Go through the specification line by line: is it met? Quote the line of code that shows it, or say that none does.",
         "Does any callback sleep, wait or compute for long? What would it hold up?",
         "What happens if the simulator is not running, a second request comes, or a goal makes no sense?",
@@ -33,6 +30,7 @@ _QUESTIONS = {
         "List what you would change, the most important first; nothing that the specification does not ask for.",
     ),
 }
+"""How each kind of prompt begins, and the questions at its end."""
 
 
 @dataclass(frozen=True)
@@ -64,20 +62,21 @@ def compose(kind: str, code: Mapping[str, str], error: str, graph: str, log: Seq
 
     Raises ValueError for an unknown kind.
     """
-    if kind not in _OPENING:
+    if kind not in _KINDS:
         raise ValueError(f'there are prompts for "debugging" and for "code review", got {kind!r}')
     languages = {".xml": "xml", ".txt": "cmake", ".msg": "", ".srv": "", ".yaml": "yaml"}
     written = "\n\n".join(
         f"{name}:\n\n{_fenced(text, languages.get(Path(name).suffix, 'python'))}" for name, text in code.items()
     )
+    opening, *questions = _KINDS[kind]
     parts = [
-        _OPENING[kind],
+        opening,
         f"## Specification\n\n{SPECIFICATION.read_text(encoding='utf-8').strip()}",
         f"## Code\n\n{written or '(none chosen)'}",
         f"## Error\n\n{_fenced(error) if error else 'None: nothing has raised an error.'}",
         f"## The running system, after {now:.1f} s\n\n{graph}",
         f"## The last lines of the log\n\n{_fenced(chr(10).join(log)) if log else 'Nothing was logged.'}",
-        "## What I ask\n\n" + "\n".join(f"{number}. {text}" for number, text in enumerate(_QUESTIONS[kind], 1)),
+        "## What I ask\n\n" + "\n".join(f"{number}. {text}" for number, text in enumerate(questions, 1)),
     ]
     return Prompt(kind, re.sub(r"\b0x[0-9a-f]{6,}\b", "0x…", "\n\n".join(parts)))
 
