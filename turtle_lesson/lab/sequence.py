@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from itertools import chain
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -76,23 +75,21 @@ def _sentence(step: Step) -> str:
         parts.append(f"answered after {after(call.asked, call.answered)} ({fields(call.response)})")
     elif call.received is not None:
         parts.append("has not answered yet")
-    meanwhile = [f"{name} {times}, at most {after(0, longest)}" for name, (times, longest) in step.waited.items()]
-    if meanwhile:
-        parts.append(f"had to wait meanwhile: {listed(meanwhile)}")
+    if step.waited:
+        meanwhile = listed([f"{name} {how}" for name, how in step.waited])
+        parts.append(f"had to wait meanwhile: {meanwhile}")
     return f"{'; '.join(filter(None, parts))}."
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(NamedTuple):
     """One call, with what the trace of callbacks knows of it. Times are in ns since the lesson's start."""
 
     call: Call
     callback: str = ""
     """The function that served it, if it has begun."""
     began: int | None = None
-    waited: dict[str, tuple[str, int]] = field(default_factory=dict)
-    """Of the same program's other callbacks those that were ready meanwhile and had to wait: how often, in words, and the
-    longest wait."""
+    waited: Sequence[tuple[str, str]] = ()
+    """Of the same program's other callbacks those that were ready meanwhile and had to wait: how often and how long."""
 
 
 def step_of(trace: Trace, call: Call) -> Step:
@@ -103,17 +100,16 @@ def step_of(trace: Trace, call: Call) -> Step:
         if (callback.process, callback.node, callback.source) != (call.process, call.server, call.service):
             continue
         runs = [*callback.ended, *((*run, None) for run in callback.open)]
-        mine = [(began, ended) for ready, began, ended in runs if ready == call.received]
-        mine.sort(key=lambda run: run[0])
+        mine = sorted(((began, ended) for ready, began, ended in runs if ready == call.received), key=itemgetter(0))
         if place < len(mine):
             began, ended = mine[place]
             return Step(call, callback.name, began, _waited(trace, callback, began, ended or trace.now))
     return Step(call)
 
 
-def _waited(trace: Trace, server: Callback, began: int, ended: int) -> dict[str, tuple[str, int]]:
+def _waited(trace: Trace, server: Callback, began: int, ended: int) -> list[tuple[str, str]]:
     """The callbacks of the same program that became ready while this one ran, and had to wait for a while."""
-    found: dict[str, tuple[str, int]] = {}
+    found: dict[str, str] = {}
     for callback in trace.callbacks:
         if callback.process != server.process:
             continue
@@ -121,8 +117,8 @@ def _waited(trace: Trace, server: Callback, began: int, ended: int) -> dict[str,
         waits += [trace.now - ready for ready in callback.arrivals or () if began <= ready <= ended]
         if late := [wait for wait in waits if wait >= SHORT]:
             source = callback.source or f"every {callback.period / NANOSECONDS:g} s"
-            found[f"{callback.name} ({source})"] = (count(len(late), "time"), max(late))
-    return found
+            found[f"{callback.name} ({source})"] = f"{count(len(late), 'time')}, at most {after(0, max(late))}"
+    return list(found.items())
 
 
 def clock(time: int) -> str:
@@ -169,8 +165,7 @@ class Event(NamedTuple):
 
 def _events(step: Step) -> list[tuple[int, Event]]:
     """The events of one call with their times (ns), in the order in which those of one time stay."""
-    call = step.call
-    server = call.server
+    call, server = step.call, step.call.server
     asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
     if not server:
         events = [Event("lost", call.caller, text=asked), Event("note", call.caller, text="no node received it")]
@@ -180,18 +175,14 @@ def _events(step: Step) -> list[tuple[int, Event]]:
         return [question, (call.asked, Event("note", server, text="waits: no callback has begun yet"))]
     waited = step.began - call.received
     begins = f"{step.callback} begins" + (f", after a wait of {after(0, waited)}" if waited >= SHORT else "")
-    last = [
-        Event("note", server, text=f"{name} waits {times}, at most {after(0, longest)}")
-        for name, (times, longest) in step.waited.items()
-    ]
-    if call.answered is None:
+    first = [Event("activate", server), Event("note", server, text=begins)]
+    last = [Event("note", server, text=f"{name} waits {how}") for name, how in step.waited]
+    if (end := call.answered) is None:
         end = 2**62
         last.append(Event("note", server, text="no answer yet"))
     else:
-        end = call.answered
         answer = f"{clock(end)}: answer after {after(call.asked, end)}<br/>{fields(call.response)}"
         last.append(Event("answer", server, call.caller, answer))
-    first = [Event("activate", server), Event("note", server, text=begins)]
     last.append(Event("deactivate", server))
     return [question, *((step.began, event) for event in first), *((end, event) for event in last)]
 
