@@ -184,9 +184,13 @@ class Channel:
             self.follow()
 
     def follow(self) -> None:
-        """Subscribe if there is a publisher, unsubscribe if there is none any more."""
+        """Subscribe if another node is at the other end (of a driven topic, at this end), and unsubscribe if none is."""
+        if self.driven:
+            ends = others(self.node, self.node.get_subscriptions_info_by_topic(self.topic))
+        else:
+            ends = self.node.get_publishers_info_by_topic(self.topic)
         message_type = None
-        if self._wanted():
+        if any(end.topic_type == self.type_name for end in ends):
             with suppress(ValueError):  # its package is not built and sourced
                 message_type = find_class(self.type_name)
         if message_type is self._message_type:
@@ -223,14 +227,6 @@ class Channel:
             return f"{self.topic} is published, but {error}"
         names = listed(sorted(set(map(owner, publishers))))
         return f"{names} can publish {self.topic}, but no message has come yet. {self.patience}"
-
-    def _wanted(self) -> bool:
-        """Whether another node is there at the other end (or, of a driven topic, at this end)."""
-        if self.driven:
-            ends = others(self.node, self.node.get_subscriptions_info_by_topic(self.topic))
-        else:
-            ends = self.node.get_publishers_info_by_topic(self.topic)
-        return any(end.topic_type == self.type_name for end in ends)
 
 
 def find_class(type_name: str) -> Any:
@@ -297,18 +293,16 @@ class ObstacleBoard:
         self._publisher: Publisher | None = None
         self._put: tuple[Obstacle, ...] = ()
         self._expected: Obstacles = {}
-        self._deadline: float | None = None
+        self._deadline = -math.inf
 
     @property
     def obstacles(self) -> tuple[Obstacle, ...]:
         """The obstacles in the world."""
         heard = self._recorder.obstacles
         if heard == self._expected:
-            self._deadline = None
+            self._deadline = -math.inf
             return self._put
-        if self._deadline is not None and self._now() < self._deadline:
-            return self._put
-        return tuple(heard.values())
+        return self._put if self._now() < self._deadline else tuple(heard.values())
 
     def put(self, obstacles: Iterable[Obstacle] | str) -> None:
         """Replace all obstacles, by others or by the name of a ready-made world, and publish them.
