@@ -208,10 +208,9 @@ class LivePlot(LiveWidget):
 
     def window(self, curve: Curve) -> tuple[np.ndarray, np.ndarray]:
         """Times (s) and numbers of a curve's last `seconds`."""
-        rows = curve.table.after(
-            self.backend.recorder.origin + round((self.backend.now - self.seconds) * NANOSECONDS) - 1
-        )
-        return self.backend.recorder.seconds(rows["stamp"]), rows["value"]
+        recorder = self.backend.recorder
+        rows = curve.table.after(recorder.origin + round((self.backend.now - self.seconds) * NANOSECONDS) - 1)
+        return recorder.seconds(rows["stamp"]), rows["value"]
 
     def tick(self) -> None:
         """Bring points and figures up to date."""
@@ -228,7 +227,7 @@ class LivePlot(LiveWidget):
             {
                 "name": curve.name,
                 "topic": curve.topic or curve.asked,
-                "last": figure(float(curve.table.newest(1)["value"][0])) if len(curve.table) else "",
+                "last": figure(curve.table.last()[1]) if len(curve.table) else "",
                 "note": self._note(curve),
             }
             for curve in self._curves
