@@ -91,8 +91,9 @@ class Trail:
 
     def __init__(self, spacing: float = 0.1, tip: int = 24, most: int = MOST_POINTS) -> None:
         self._spacing, self._longest, self._most = spacing, tip, most
-        self._seen: int | None = None
-        self._here: Place | None = None
+        self._seen = -1
+        self._here: list[Place] = []
+        """The newest place, if any was heard."""
         self._heading = 0.0
         self._tip: list[Place] = []
         self.old: list[np.ndarray] = []
@@ -103,23 +104,22 @@ class Trail:
     @property
     def tip(self) -> np.ndarray:
         """The newest piece, to where the turtle is now: n by 2, m."""
-        ahead = [] if self._here is None else [self._here]
-        return np.array([*self._tip, *ahead]).reshape(-1, 2)
+        return np.array(self._tip + self._here).reshape(-1, 2)
 
     def follow(self, poses: Table) -> bool:
         """Take in what was heard since the last time; returns whether there was anything new to draw."""
-        rows = poses.array() if self._seen is None else poses.after(self._seen - 1)  # from the last one that was seen
+        rows = poses.after(self._seen - 1)  # from the last one that was seen
         rows = rows[np.isfinite(rows["x"]) & np.isfinite(rows["y"])]
-        known = 0 if self._seen is None else int((rows["stamp"] <= self._seen).sum())
+        known = int((rows["stamp"] <= self._seen).sum())
         places: list[Place] = list(zip(rows["x"].tolist(), rows["y"].tolist(), strict=True))
         if len(places) == known:
             return False
         headings = rows["theta"].tolist()
         jumps = set(find_jumps(rows).tolist())
-        moved = any(place != self._here for place in places[known:])
+        moved = any([place] != self._here for place in places[known:])
         for index in range(known, len(places)):
             if index in jumps:
-                self._tip += [] if self._here is None else [self._here]
+                self._tip += self._here
                 self._finish([])
             far = math.dist(self._tip[-1], places[index]) if self._tip else math.inf
             turned = BEND < abs(headings[index] - self._heading) < math.tau - BEND
@@ -128,7 +128,7 @@ class Trail:
                 self._heading = headings[index]
                 if len(self._tip) >= self._longest:
                     self._finish([places[index]])
-            self._here = places[index]
+            self._here = [places[index]]
         self._seen = int(rows["stamp"][-1])
         return moved
 
@@ -274,7 +274,6 @@ def _draw_start(axes: Axes, places: np.ndarray, trail: np.ndarray, signs: np.nda
     behind = math.atan2(*(places[0] - away[0])[::-1]) if len(away) else -math.pi / 2
     ring: dict[str, Any] = {"markerfacecolor": "#d3e6f3", "markeredgecolor": drawing.BLUE, "markeredgewidth": 1.6}
     axes.plot([x], [y], marker="o", markersize=6.5, zorder=3.5, **ring)
-    label: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 8.5, "color": drawing.INK}
     turns = np.array([behind + sign * math.pi / 4 * step for step in range(5) for sign in (1, -1)])
     round_it = np.column_stack([0.68 * np.cos(turns), 0.45 * np.sin(turns)])
     free = np.concatenate([places[0] + far * round_it for far in (1.0, 1.6, 2.2, 3.0)])
@@ -285,7 +284,7 @@ def _draw_start(axes: Axes, places: np.ndarray, trail: np.ndarray, signs: np.nda
         for place in free
     ]
     across, up = free[np.argmin(covered)]
-    axes.text(across, up, "start", zorder=3.5, **label)
+    axes.text(across, up, "start", ha="center", va="center", fontsize=8.5, color=drawing.INK, zorder=3.5)
 
 
 class Goal(NamedTuple):
