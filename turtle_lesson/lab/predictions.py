@@ -270,10 +270,8 @@ def draw_map(turtle: tuple[float, float, float] | None, goal: Goal | None, guess
         parts.append(f'<g transform="translate({LEFT + 10:g} {number(y, 1)})">{sign}</g>')
         parts.append(drawing.text(LEFT + 28, y + 4, words, 13, "start"))
     description = f"Map of the turtle's world: {'; '.join(words for _, _, words in signs)}."
-    picture = drawing.document(
-        round(LEFT + SIDE + RIGHT), round(top + KEY * len(signs) + 4), "Guess and outcome", description, parts
-    )
-    return drawing.image(picture, description)
+    width, height = round(LEFT + SIDE + RIGHT), round(top + KEY * len(signs) + 4)
+    return drawing.image(drawing.document(width, height, "Guess and outcome", description, parts), description)
 
 
 def _pixels(place: tuple[float, ...] | Goal) -> Place:
@@ -309,10 +307,9 @@ def _disc(x: float, y: float, radius: int, look: str) -> str:
 
 def _flag(x: float, y: float, scale: float) -> str:
     """A flag, and the ring within which the goal counts as reached; `scale` is pixels a metre."""
-    corners = " ".join(
-        f"{number(right * scale, 1)},{number(-up * scale, 1)}" for right, up in ((0, 0.87), (0.44, 0.71), (0, 0.55))
-    )
+    corners = ((0.0, 0.87), (0.44, 0.71), (0.0, 0.55))
+    points = " ".join(f"{number(right * scale, 1)},{number(-up * scale, 1)}" for right, up in corners)
     ring = f'<circle r="{number(TOLERANCE * scale, 1)}" fill="none" stroke="{drawing.VERMILLION}" stroke-width="1.5"/>'
     pole = _line(0, 0, 0, -0.87 * scale, drawing.INK, 'stroke-width="1.5"')
     place = f"translate({number(x, 1)} {number(y, 1)})"
-    return f'<g transform="{place}">{ring}{pole}<polygon points="{corners}" fill="{drawing.VERMILLION}"/></g>'
+    return f'<g transform="{place}">{ring}{pole}<polygon points="{points}" fill="{drawing.VERMILLION}"/></g>'
