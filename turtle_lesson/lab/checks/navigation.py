@@ -210,9 +210,8 @@ def answered(probe: Probe, way: Way) -> Seen:
     it = drive(probe, way)
     if it.answer.response is None:
         return no_answer(probe, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
-    return Seen(
-        bool(it.response.success), told(it.answer), "What is response.success when on_goal returns the response?"
-    )
+    step = "What is response.success when on_goal returns the response?"
+    return Seen(bool(it.response.success), told(it.answer), step)
 
 
 @expectation(f"{{way.name}}: the turtle within {NEAR:g} m of it")
