@@ -62,7 +62,7 @@ class Form(LiveWidget):
         self._timer: Timer | None = None
         self._last: Any = None
         super().__init__(backend, name=full, kind=kind, type_name=type_name)
-        self._bring_up_to_date(fields_too=True)
+        self._bring_up_to_date()
         self.tick()
 
     def do_edit(self, path: str, text: Any) -> None:
@@ -73,12 +73,12 @@ class Form(LiveWidget):
     def do_add(self, path: str) -> None:
         """Add a row to an array."""
         self._part(path, Rows, "an array").add()
-        self._bring_up_to_date(fields_too=True)
+        self._bring_up_to_date()
 
     def do_remove(self, path: str, row: int) -> None:
         """Take a row of an array away."""
         self._part(path, Rows, "an array").remove(row)
-        self._bring_up_to_date(fields_too=True)
+        self._bring_up_to_date()
 
     def do_now(self, path: str, on: bool) -> None:
         """Fill a time with the moment of sending, or not."""
@@ -86,12 +86,12 @@ class Form(LiveWidget):
         if not part.is_time:
             raise ValueError(f"{path} is not a time.")
         part.now = bool(on)
-        self._bring_up_to_date(fields_too=True)
+        self._bring_up_to_date()
 
     def do_reset(self) -> None:
         """Put the defaults into all fields."""
         self._whole = form_of(self._whole.message_class)
-        self._bring_up_to_date(fields_too=True)
+        self._bring_up_to_date()
 
     def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:
         """Set how often to publish (messages a second), how long to wait for an answer (s)."""
@@ -184,12 +184,11 @@ class Form(LiveWidget):
             self._timer = None
         self.running = False
 
-    def _bring_up_to_date(self, fields_too: bool = False) -> None:
+    def _bring_up_to_date(self) -> None:
         singles = list(self._whole.singles())
         self.values = {single.path: single.text for single in singles}
         self.errors = {single.path: words for single in singles if (words := _error_of(single))}
-        if fields_too:
-            self.tree = self._whole.state()["parts"]
+        self.tree = self._whole.state()["parts"]
         has_now = "'now': True" in repr(self.tree)
         self.remark = "The stamp is left out: a line for the terminal cannot know it." if has_now else ""
         if self.errors:
