@@ -354,11 +354,7 @@ class Probe:
         asked, answered = self.now, []
         future = client.call_async(request)
         future.add_done_callback(lambda _: answered.append(self.now))
-
-        def look() -> Answer | None:
-            return Answer(future.result(), asked, answered[0]) if answered else None
-
-        return look
+        return lambda: Answer(future.result(), asked, answered[0]) if answered else None
 
     @remembered
     def _client(self, service: str, type_name: str) -> Client:
