@@ -61,8 +61,8 @@ def _draw(lanes: list[Lane], window: Window) -> Figure:
     height = TOP + LANE * len(lanes) + BOTTOM
     figure = drawing.card(WIDTH, height)
     callbacks = sum(lane.callback for lane in lanes)
-    parts = [count(len(lanes) - callbacks, "topic"), count(callbacks, "callback")]
-    shown = [part for part in parts if not part.startswith("no ")]
+    amounts = {"topic": len(lanes) - callbacks, "callback": callbacks}
+    shown = [count(amount, noun) for noun, amount in amounts.items() if amount]
     drawing.heading(figure, "Timeline", f"{window.seconds}  ·  {', '.join(shown)}")
     axes = drawing.axes_at(figure, LEFT, BOTTOM, WIDTH - LEFT - RIGHT, LANE * len(lanes))
     axes.set_ylim(len(lanes) - 0.5, -0.5)
