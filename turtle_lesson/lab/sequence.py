@@ -135,8 +135,7 @@ def after(begin: int, end: int) -> str:
 def fields(message: Any) -> str:
     """A message's fields and values: "x 5.0, y 5.0, theta 0.0"."""
     values = [f"{name} {_value(getattr(message, name))}" for name in message.get_fields_and_field_types()]
-    text = ", ".join(values) or "empty"
-    return shortened(text, 90)
+    return shortened(", ".join(values) or "empty", 90)
 
 
 def _value(value: Any) -> str:
