@@ -102,8 +102,7 @@ class Point:
 
     def shown(self, value: Any) -> str:
         """Both, with their unit."""
-        x, y = value
-        return f"({number(x)}, {number(y)}) m"
+        return f"{point(*value)} m"
 
     def compared(self, guess: Any, value: Any) -> str:
         """How far apart they are."""
