@@ -13,7 +13,6 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import reduce, wraps
 from operator import attrgetter
-from types import TracebackType
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 from rcl_interfaces.msg import Log
@@ -165,9 +164,7 @@ class Probe:
         self.nodes_before = self.nodes()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.target.limit_work(None)
         with suppress(Exception):  # what is gone already needs no cleaning
             self.clean_up.close()
