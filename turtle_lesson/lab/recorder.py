@@ -202,9 +202,8 @@ class Channel:
             quality = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
             if self.latched:
                 quality = QoSProfile(depth=DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-            self._subscription = self.node.create_subscription(
-                message_type, self.topic, self.make_listener(message_type), quality, raw=self.raw
-            )
+            hear = self.make_listener(message_type)
+            self._subscription = self.node.create_subscription(message_type, self.topic, hear, quality, raw=self.raw)
 
     def close(self) -> None:
         """Unsubscribe."""
