@@ -186,8 +186,7 @@ class Beams:
             "left": (turn > AHEAD) & (turn <= BESIDE),
             "behind": np.abs(turn) > BESIDE,
         }
-        best = {side: self.nearest(among) for side, among in sides.items()}
-        return {side: beam for side, beam in best.items() if beam is not None}
+        return {side: beam for side, among in sides.items() if (beam := self.nearest(among)) is not None}
 
 
 def read_beams(scan: Any) -> Beams:
