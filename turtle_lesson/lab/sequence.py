@@ -213,9 +213,8 @@ def draw_sequence(programs: Sequence[str], events: Sequence[Event], title: str, 
             parts.append(_draw(event, x, places.get(event.to, x), y, lines))
             y += 6
     y += 12
-    columns = [
-        f'<path d="M{x:g},30V{number(y, 1)}" stroke="{drawing.EDGE}" stroke-width="1.2"/>' for x in places.values()
-    ]
+    look = f'stroke="{drawing.EDGE}" stroke-width="1.2"'
+    columns = [f'<path d="M{x:g},30V{number(y, 1)}" {look}/>' for x in places.values()]
     heads = [_box(x, 6, drawing.text_width(name, 12.5) + 24, 24, [name], "nodes") for name, x in places.items()]
     width = 2 * EDGE + APART * (len(programs) - 1)
     return drawing.document(round(width), round(y + 4), title, description, [*columns, *bars, *parts, *heads])
