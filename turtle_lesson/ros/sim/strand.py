@@ -179,9 +179,8 @@ class Cell:
 
     def show_in(self, context: Context) -> None:
         """Copy what has changed since an earlier cell into a context that came from that one."""
-        visitor = greenlet(
-            self.show_here
-        )  # a context in which somebody waits cannot be run in once more, only lived in
+        # a context in which somebody waits cannot be run in once more, only lived in
+        visitor = greenlet(self.show_here)
         visitor.gr_context = context
         visitor.switch()
 
