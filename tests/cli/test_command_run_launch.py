@@ -88,6 +88,12 @@ def test_a_process_can_be_named_by_its_number(world: World) -> None:
     assert nodes(world) == []
 
 
+def test_a_job_that_is_not_there_keeps_no_other_one_running(world: World) -> None:
+    run_line(world, "ros2 run robot_controller navigator")
+    assert run_line(world, "kill -INT %7 %1") == 1
+    assert nodes(world) == []
+
+
 def test_a_program_is_told_what_stands_behind_its_name(world: World) -> None:
     run_line(world, "ros2 run robot_controller navigator --ros-args -r __node:=bob -r __ns:=/team")
     assert nodes(world) == ["/team/bob"]

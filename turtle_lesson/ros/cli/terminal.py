@@ -215,10 +215,14 @@ def tail(terminal: Terminal, words: list[str]) -> int:
 
 def _counted(terminal: Terminal, words: list[str]) -> tuple[int, list[str]]:
     """The number behind `-n` or `-`, and the lines."""
-    if words[:1] == ["-n"]:
-        words = ["".join(words[:2]), *words[2:]]
-    number = re.fullmatch(r"-n?(\d+)", words[0]) if words else None
-    return (int(number[1]), _lines(terminal, words[1:])) if number else (10, _lines(terminal, words))
+    count, names = 10, []
+    following = iter(words)
+    for word in following:
+        if found := re.fullmatch(r"-n|-n?(\d+)", word):
+            count = int(found[1] or next(following, 0))
+        else:
+            names.append(word)
+    return count, _lines(terminal, names)
 
 
 def sort(terminal: Terminal, words: list[str]) -> int:
@@ -262,15 +266,19 @@ def kill(terminal: Terminal, words: list[str]) -> int:
         raise ValueError(f"{name}: invalid signal specification; there are {', '.join(SIGNALS)}")
     if not words:
         raise ValueError("which one? `jobs` lists what is running; kill -INT %1 is Ctrl-C for the first")
+    missing = []
     for word in words:
         running: dict[str, Process | LaunchHandle] = {
             f"%{job.number}": job.what for job in jobs(terminal.world).running
         }
         running |= {str(process.pid): process for process in terminal.world.processes if process.alive}
-        if word not in running:
-            raise ValueError(f"{word[:60]}: no such job or process. `jobs` lists what is running")
-        send(running[word], name)
-        terminal.world.sim.settle()
+        if word in running:
+            send(running[word], name)
+            terminal.world.sim.settle()
+        else:
+            missing.append(word[:60])
+    if missing:
+        raise ValueError(f"{', '.join(missing)}: no such job or process. `jobs` lists what is running")
     return 0
 
 
