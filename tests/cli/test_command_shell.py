@@ -79,6 +79,7 @@ def test_signs_between_commands() -> None:
         ("a |", "b"),
         ("a |\n# or", "b"),
         ("a <<E", "E"),
+        ("a <<E > b", "\nE"),
     ],
 )
 def test_what_goes_on_in_the_next_line(first: str, second: str) -> None:
@@ -116,6 +117,7 @@ def test_any_text_is_taken_apart_or_refused(text: str) -> None:
         ("echo 'a\nb\nc' | grep -v b | wc -l", "2\n"),
         ("echo 'a\nb\nc' | head -n 2", "a\nb\n"),
         ("echo 'a\nb\nc' | tail -1", "c\n"),
+        ("echo 'a\nb' > x.txt; head x.txt -n 1; tail x.txt -1", "a\nb\n"),
         ("echo 'b\na\nb' | sort -u", "a\nb\n"),
         ("echo -n a; echo -e 'b\\tc\\n-'", "ab\tc\n-\n"),
         ("echo a > in.txt; cat < in.txt; grep a <in.txt", "a\na\n"),
@@ -239,6 +241,7 @@ def test_long_words_of_other_terminals_are_cut(type_line) -> None:  # type: igno
         ("kill", "kill: which one?"),
         ("kill 99999", "kill: 99999: no such job or process"),
         ("kill %4", "kill: %4: no such job or process"),
+        ("kill %4 it", "kill: %4, it: no such job or process"),
         ("kill it", "kill: it: no such job or process"),
         ("kill -HUP 1", "kill: HUP: invalid signal specification"),
         ("grep", "grep: missing operand"),

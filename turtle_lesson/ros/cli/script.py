@@ -83,7 +83,7 @@ def command_end(text: str, at: int = 0) -> int:
     before: Token | None = None
     with contextlib.suppress(BackslashAtEndError):
         for token, left in _scan(text, at):
-            if token != "\n":
+            if isinstance(token, HereText) or token != "\n":
                 before = token
             elif before not in ("&&", "||", "|"):
                 return len(text) - left
