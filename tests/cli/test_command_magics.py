@@ -530,7 +530,8 @@ def test_tab_completes_files_where_a_command_wants_one(run: Run, tmp_path: Path)
     (tmp_path / "a.yaml").touch()
     for command in ("ros2 bag play ", "ros2 bag info ", "ros2 param load /turtlesim ", "cat ", "source "):
         assert {"a_bag/", "a.yaml"} <= {*complete(current_world(), command)}, command
-    assert complete(current_world(), "cd ") == ["a_bag/"]
+    for command in ("cd ", "ros2 param dump /turtlesim --output-dir "):
+        assert complete(current_world(), command) == ["a_bag/"]
     assert complete(current_world(), "ros2 bag play a_") == ["a_bag/"]
     assert complete(current_world(), "cat no/where") == complete(current_world(), "cat 'a b\0/") == []
 

@@ -59,7 +59,7 @@ class _Formatter(argparse.HelpFormatter):
 
 
 class Parser(argparse.ArgumentParser):
-    """An ArgumentParser that raises `Stop` instead of printing and exiting; its help is as wide in every terminal."""
+    """An ArgumentParser that raises `Stop` instead of printing and exiting; its help has one width in all terminals."""
 
     def __init__(self, prog: str, description: str, arguments: Iterable[Argument]) -> None:
         more: dict[str, Any] = {"color": False} if sys.version_info >= (3, 14) else {}

@@ -119,7 +119,7 @@ def _values(world: World, action: argparse.Action, given: Sequence[str], begun: 
             return _launch_arguments(world, given)
         case "bag_path" | "output" | "parameter_file":
             return paths(begun)
-        case "destination_directory":
+        case "destination_directory" | "output_dir":
             return paths(begun, folders_only=True)
     return ()
 

@@ -9,8 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.runtime import files
-
+from ..runtime import files
 from .arguments import HIDDEN_NODES, NODE, OF_NODE, arg, flag
 from .typed_values import MAX_LENGTH, Unparsable, read_yaml
 from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
