@@ -108,6 +108,7 @@ def test_a_history(world: World) -> None:
     assert millis(cache.getElemBeforeTime(at(2.5))) == 2000
     assert (cache.getOldestTime(), cache.getLastestTime()) == (at(2), at(4))
     assert millis(cache.getLast()) == 4000
+    assert list(map(millis, cache.cache_msgs[-2:])) == [3000, 4000]
 
 
 def test_subscriptions(run: Run) -> None:

@@ -7,7 +7,6 @@ synchronising) is not here either, nor is `Chain`.
 from __future__ import annotations
 
 import threading
-from collections import deque
 from collections.abc import Callable, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -88,9 +87,10 @@ class Cache(SimpleFilter):
     def __init__(self, f: SimpleFilter, cache_size: int = 1, allow_headerless: bool = False) -> None:
         super().__init__()
         self.connectInput(f)
+        self.cache_size = cache_size
         self.allow_headerless = allow_headerless
-        self.cache_msgs: deque[Any] = deque(maxlen=cache_size)
-        self.cache_times: deque[Time] = deque(maxlen=cache_size)
+        self.cache_msgs: list[Any] = []
+        self.cache_times: list[Time] = []
 
     def connectInput(self, f: SimpleFilter) -> None:
         """Take messages from another filter."""
@@ -102,6 +102,8 @@ class Cache(SimpleFilter):
         if stamp is not None:
             self.cache_times.append(stamp)
             self.cache_msgs.append(msg)
+            surplus = max(0, len(self.cache_msgs) - self.cache_size)
+            del self.cache_times[:surplus], self.cache_msgs[:surplus]
             self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
