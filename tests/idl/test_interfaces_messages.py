@@ -325,6 +325,7 @@ def test_more_that_is_refused(type_, value, text):
 @pytest.mark.parametrize(
     ("type_", "value", "stored"),
     [
+        ("byte", bytearray(b"a"), b"a"),
         ("uint8[]", range(3), array("B", [0, 1, 2])),
         ("float32[]", collections.deque([1.0]), array("f", [1.0])),
         ("float32[]", [math.inf, math.nan, -math.inf], None),

@@ -109,7 +109,8 @@ _HINTS = {
 def scalar_check(name: str, type_: FieldType) -> Check:
     """Check of a field with one primitive value; a float or a byte is stored as a plain one."""
     kind = type(zero(type_.base))
-    is_value, made_plain = _value_test(type_, kind), kind in (float, bytes)
+    is_value = _value_test(type_, (bytes, bytearray) if kind is bytes else kind)
+    made_plain = kind in (float, bytes)
 
     def check(value: Any) -> Any:
         if is_value(value) and (kind is not bytes or len(value) == 1):
@@ -222,7 +223,7 @@ def numpy_name(base: str) -> str:
     return "uint8" if base == "char" else base
 
 
-def _value_test(type_: FieldType, kind: type[Any]) -> Callable[[Any], bool]:
+def _value_test(type_: FieldType, kind: type[Any] | tuple[type[Any], ...]) -> Callable[[Any], bool]:
     """What is true of the values, or elements, of a field."""
     bound = type_.string_bound
     if bound is not None:
