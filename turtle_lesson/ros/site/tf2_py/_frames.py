@@ -104,15 +104,15 @@ class TimeCache:
         oldest, latest = self.kept[0], self.kept[-1]
         if self.span is None or time in (0, latest.stamp):
             return latest
-        wanted, why_not = shown_time(time), ""
+        why_not = ""
         if oldest is latest:
-            why_not = f"at time {wanted}, but only time {shown_time(latest.stamp)} is in the buffer"
+            why_not = f"at time {shown_time(time)}, but only time {shown_time(latest.stamp)} is in the buffer"
         elif time > latest.stamp:
             known = f"but the latest data is at time {shown_time(latest.stamp)}"
-            why_not = f"into the future.  Requested time {wanted} {known}"
+            why_not = f"into the future.  Requested time {shown_time(time)} {known}"
         elif time < oldest.stamp:
             known = f"but the earliest data is at time {shown_time(oldest.stamp)}"
-            why_not = f"into the past.  Requested time {wanted} {known}"
+            why_not = f"into the past.  Requested time {shown_time(time)} {known}"
         if why_not:
             raise Unreachable(f"Lookup would require extrapolation {why_not}")
         after = bisect_right(self.kept, time, key=_stamp_of)
