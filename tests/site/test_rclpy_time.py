@@ -110,6 +110,25 @@ def test_in_the_trace_a_timer_on_the_clock_topic_is_ready_when_it_ticks(run: Run
     assert [ready for ready, _, _ in ticks] == [began for _, began, _ in ticks] and len(ticks) == 3
 
 
+def test_in_the_trace_rclpys_own_methods_are_callbacks_too_but_not_what_a_rate_needs(run: Run, world: World) -> None:
+    world.keep_trace()
+
+    def program(found: list[Any]) -> None:
+        rclpy.init(args=[])
+        node = follower()
+        relay = node.create_publisher(ClockMessage, "copy", 10)
+        node.create_subscription(ClockMessage, "original", relay.publish, 10)
+        node.create_timer(0.5, node.get_clock().now)
+        node.create_rate(2.0)
+        rclpy.spin(node)
+
+    run(program, seconds=1.0)
+    assert world.trace is not None
+    own = [(each.kind, each.name) for each in world.trace.callbacks if each.kind != "service"]
+    assert own == [("subscription", "publish"), ("timer", "now")]
+    assert "get_parameters" in {each.name for each in world.trace.callbacks if each.kind == "service"}
+
+
 CLOCKED = (5.5, 6.0, 6.5, 7.0, 10.0, 10.5, 11.0, 11.0, 12.25, 12.5, 20.0, 20.0, 20.2)
 CLOCKED += (4.0, 4.5, 5.0, 5.2, 6.0, 4.9, 5.9, 6.0, 6.0, 6.3, 50.0)
 """What /clock says, 0.1 s apart, after it has said 5.0."""

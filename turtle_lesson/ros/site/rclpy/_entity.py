@@ -239,14 +239,16 @@ KINDS = {TIMER: "timer", SUBSCRIPTION: "subscription", SERVICE: "service"}
 def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
     """Give a callback of the program's its place in the trace, unless it has one from another executor."""
     kind, callback, entry = KINDS.get(entity._kind), entity.callback, node._ros_entry
-    of_rclpy = type(getattr(callback, "__self__", None)).__module__.startswith("rclpy.")
-    if kind is None or callback is None or entry.hidden or (of_rclpy and kind != "service"):
+    owner = type(getattr(callback, "__self__", None))
+    of_rclpy = owner.__module__.startswith("rclpy.")
+    if kind is None or callback is None or entry.hidden or (of_rclpy and owner.__name__ in ("Rate", "TimeSource")):
         return
     end = entity._reader if kind == "subscription" else entity._server if kind == "service" else None
     source = "" if end is None else end.topic.name if kind == "subscription" else end.name
     if source in PLUMBING or entity._traced is not None:
         return
-    name = source.rpartition("/")[2] if of_rclpy else name_of(callback)  # such as get_parameters
+    is_plumbing = of_rclpy and kind == "service"  # such as get_parameters
+    name = source.rpartition("/")[2] if is_plumbing else name_of(callback)
     period = entity._period if kind == "timer" else 0
     entity._traced = Callback(entry.full_name, name, kind, source, period, entry.process.pid, entity._is_async)
     trace.callbacks.append(entity._traced)
