@@ -115,6 +115,7 @@ def test_managed_nodes_are_led_through_their_states(party: Workshop) -> None:
     ]
     assert party.say("ros2 lifecycle get /one", "ros2 lifecycle get /two") == ["active [3]", "active [3]"]
     assert "/launch_ros_1002" in party.say("ros2 node list")
+    assert "Clients count: 1" in party.say("ros2 service info /one/change_state")
     party.say("kill -INT %1")
     assert party.say("ros2 node list") == []
 

@@ -18,6 +18,7 @@ from ..ament.package import PythonProgram
 if TYPE_CHECKING:
     from launch.actions import ExecuteProcess
     from lifecycle_msgs.msg import TransitionEvent
+    from rclpy.client import Client
     from rclpy.node import Node
 
     from ..runtime.world import World
@@ -192,6 +193,7 @@ class RosHelper:
         self._carry_on = carry_on
         self._orders: list[Callable[[Node], object]] = []
         self._wake: Callable[[], None] | None = None
+        self._clients: dict[str, Client] = {}
         self._ended = False
         self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
 
@@ -238,13 +240,15 @@ class RosHelper:
         from lifecycle_msgs.srv import ChangeState
 
         def call(node: Node) -> None:
-            client = node.create_client(ChangeState, f"{node_name}/change_state")
+            if node_name not in self._clients:
+                self._clients[node_name] = node.create_client(ChangeState, f"{node_name}/change_state")
+            client = self._clients[node_name]
             request = ChangeState.Request()
             request.transition.id = transition_id
 
             def try_it() -> None:
                 if client.service_is_ready():
-                    timer.cancel()
+                    node.destroy_timer(timer)
                     future = client.call_async(request)
                     future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
 
