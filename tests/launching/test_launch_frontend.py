@@ -348,6 +348,11 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
             "It is called exec here, not executable.",
         ),
         (
+            '<node pkg="robot_controller"><exec>navigator</exec></node>',
+            "Attribute 'exec' of Entity 'node' expected to be of type '<class 'str'>', got '<class 'list'>'",
+            'Write it as an attribute: exec="…".',
+        ),
+        (
             '<include path="x"/>',
             "Attribute 'file' of type '<class 'str'>' not found in Entity 'include'",
             "It is called file here, not path.",

@@ -130,6 +130,8 @@ class Entity:
         if not is_of_type(value, data_type, can_be_str):
             is_plain = data_type is str and isinstance(value, bool | int | float)
             hint = f'Put it into quotation marks: {name}: "{value}"' if is_plain else ""
+            if self._inside.in_xml is not None:  # the tags of this name in it
+                hint = f'Write it as an attribute: {name}="…".'
             raise explained(TypeError(f"{expected}, got '{type(value)}'"), hint)
         return value
 

@@ -59,8 +59,9 @@ def value_of(context: LaunchContext, value: Any) -> Any:
     many = isinstance(value, Sequence) and not isinstance(value, bytes)
     if isinstance(value, Substitution) or (many and any(isinstance(item, Substitution) for item in value)):
         text = text_of(context, value)
+        found = safe_load(text) if text else ""  # an empty text stays one (launch_ros, pull request 300)
         try:
-            return value_of(context, safe_load(text) if text else "")  # as launch_ros has it since its pull request 300
+            return uniform(found) if isinstance(found, list) else value_of(context, found)
         except TypeError as error:
             raise explained(
                 error, f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text."

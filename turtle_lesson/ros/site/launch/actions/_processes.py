@@ -160,7 +160,7 @@ class ExecuteProcess(Action):
         self.name = f"{text_of(context, self._name) or os.path.basename(self.cmd[0])}-{next(context._host.numbers)}"
         try:
             self.output_format.format(line="", this=self)
-        except (AttributeError, LookupError, ValueError) as error:
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
             what = f"output_format={self.output_format!r} cannot be filled in: {error!r}"
             raise explained(ValueError(what), "Write output_format='[{this.name}] {line}'.") from None
         alone = context.environment if self._env is None else _variables(context, self._env)
