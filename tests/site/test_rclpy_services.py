@@ -67,6 +67,19 @@ def test_a_service_that_comes_late_is_waited_for(run: Run) -> None:
     assert run(late, program) == [(True, "1.25")]  # it looks every 0.25 s, as the real one does
 
 
+@pytest.mark.parametrize(("timeout", "kind"), [("1.0", TypeError), (float("nan"), ValueError)])
+def test_a_timeout_that_is_no_number_is_refused(run: Run, timeout: Any, kind: type[Exception]) -> None:
+    def program(found: list[Any]) -> None:
+        _, client = start()
+        with pytest.raises(kind) as caught:
+            client.wait_for_service(timeout)
+        found += caught.value.__notes__
+        found.append(client.wait_for_service(float("-inf")))
+
+    said = f"The timeout is a number of seconds, or None to wait forever; got {timeout!r}."
+    assert run(program) == [said, False]
+
+
 def test_a_request_to_a_service_that_is_not_there_is_never_answered(run: Run) -> None:
     def program(found: list[Any]) -> None:
         node, client = start()

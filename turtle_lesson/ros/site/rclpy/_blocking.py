@@ -85,7 +85,12 @@ def wait_until(
     strand = running_strand()
     assert strand is not None
     strand.activity, simulation = what, strand.simulation
-    deadline = NEVER if timeout_sec is None else simulation.now + int(min(timeout_sec * NANOSECONDS, NEVER))
+    try:
+        patience = NEVER if timeout_sec is None else int(min(max(timeout_sec, 0.0) * NANOSECONDS, NEVER))
+    except (TypeError, ValueError) as error:
+        error.add_note(f"The timeout is a number of seconds, or None to wait forever; got {timeout_sec!r}.")
+        raise
+    deadline = simulation.now + patience
     while not condition():
         if not context.ok() or simulation.now >= deadline:
             return False
