@@ -130,6 +130,11 @@ def test_standard_types_say_what_their_fields_mean(world: World) -> None:
     ]
 
 
+def test_all_types_of_a_name_are_suggested(world: World) -> None:
+    answer = type_in(world, "ros2 interface show Pose")
+    assert answer.stderr.endswith("\nDid you mean 'geometry_msgs/msg/Pose' or 'turtlesim/msg/Pose'?\n")
+
+
 def test_a_learners_package_has_its_own_comments_alone(world: World, odd: Path) -> None:
     _add(odd, "Vector3 linear\n", "msg/Twist.msg")
     (odd / "comments.txt").write_text("[msg/Twist]\nlinear: m/s\n")

@@ -51,12 +51,16 @@ def _find(get: Callable[[str], Any], name: str) -> Any:
 
 
 def suggest_type(name: str, folder: str = "") -> str:
-    """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type, or none of this folder, is like that."""
+    """`Did you mean 'std_msgs/msg/String'?`, or nothing if no type is like that.
+
+    Of several types with this last name, the likeliest one of the folder is named, or up to three of all folders.
+    """
     known = [each for each in interface_names() if each != name and f"/{folder}" in each]
     package, _, last = name.replace(".", "/").rpartition("/")
     same_name = [each for each in known if each.rpartition("/")[2].lower() == last.lower()]
     if same_name and not registry.knows(package.partition("/")[0]):
-        return f"Did you mean '{sorted(same_name, key=lambda each: not each.startswith('std_'))[0]}'?"
+        likely = sorted(same_name, key=lambda each: not each.startswith("std_"))[: 1 if folder else 3]
+        return f"Did you mean {' or '.join(map(repr, likely))}?"
     return did_you_mean(f"{package}/{folder}/{last}" if package and "/" not in package else name, known)
 
 
