@@ -141,6 +141,13 @@ def test_a_file_that_is_none_is_answered_in_a_line(content: str, demo: World, tm
     assert answer.stderr == f"[Errno 2] No such file or directory: '{tmp_path}/none.yaml'\n"
 
 
+def test_a_file_in_another_encoding_is_not_guessed_at(demo: World, tmp_path: Path) -> None:
+    file = tmp_path / "demo.yaml"
+    file.write_bytes("/param_demo: {ros__parameters: {name: café}}".encode("latin-1"))
+    answer = type_in(demo, f"ros2 param load /param_demo {file}")
+    assert (answer.stderr, answer.stdout, answer.code) == (f"cannot read {file}: it is not text in UTF-8\n", "", 1)
+
+
 def test_a_file_that_never_ends_is_not_read(demo: World, tmp_path: Path) -> None:
     for path in filter(os.path.exists, ("/dev/zero", str(tmp_path))):
         answer = type_in(demo, f"ros2 param load /param_demo {path}")

@@ -148,8 +148,10 @@ def _read_file(path: str, node_name: str) -> dict[str, Any]:
         # Devices are not read, and of a file no more than YAML may have: some never end.
         if file.exists() and not file.is_file():
             raise CommandError(f"cannot read {path}: it is a folder or a device, not a file")
-        with file.open(encoding="utf-8", errors="replace") as stream:
+        with file.open(encoding="utf-8") as stream:
             content = read_yaml(stream.read(MAX_LENGTH + 1), path)
+    except UnicodeDecodeError:
+        raise CommandError(f"cannot read {path}: it is not text in UTF-8") from None
     except (OSError, ValueError) as error:
         raise CommandError(str(error)) from None
     if not isinstance(content, dict):
