@@ -166,6 +166,12 @@ def test_the_clock_of_the_bag(terminal: Terminal) -> None:
     assert heard == [pytest.approx(1_800_000_000.5 + tick / 10) for tick in range(5)]
 
 
+def test_what_no_folder_can_be_called_is_refused_in_a_line(terminal: Terminal) -> None:
+    for name in ("a\0b", "x" * 300):
+        code, _, error = terminal(f"ros2 bag record -a -o {name}")
+        assert code == 1 and error.startswith("[ERROR] [ros2bag]: ") and error.count("\n") == 1
+
+
 def test_nothing_is_overwritten(terminal: Terminal) -> None:
     terminal("ros2 bag record -a -o run --for 1")
     before = (terminal.folder / "run" / "run_0.mcap").read_bytes()

@@ -91,7 +91,7 @@ def _record(args: Namespace) -> None:
             names, args.regex, args.exclude, args.include_hidden_topics, args.include_unpublished_topics
         )
         bag = BagWriter(folder if os.path.lexists(folder) else files.check(folder), args.storage)
-    except (BagError, OSError) as error:
+    except (OSError, ValueError) as error:
         reason = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) else str(error)
         raise _error(reason.replace(str(folder), name)) from None
     say("INFO", "Listening for topics...")
