@@ -221,6 +221,9 @@ def takes_no_lesson() -> None: ...
 def has_jobs(lesson: Any, jobs: int) -> None: ...
 
 
+def takes_all(lesson: Any, **options: Any) -> None: ...
+
+
 @pytest.mark.parametrize(
     ("function", "options", "said"),
     [
@@ -236,6 +239,8 @@ def has_jobs(lesson: Any, jobs: int) -> None: ...
         (drive, {"kind": "a", "distro": "old"}, 'distro must be one of the releases "humble", "iron"'),
         (drive, {"kind": "a", "package": "nowhere"}, 'package must be "finished", "mine", None or the folder of a package'),
         (takes_no_lesson, {}, "takes_no_lesson must take the lesson as its first parameter: def takes_no_lesson(lesson): …"),
+        (takes_no_lesson, {"gain": 1}, "takes_no_lesson must take the lesson as its first parameter"),
+        (takes_all, {"run": 1}, "takes_all has a parameter 'run', as experiment() or its table has: give it another name"),
         (has_jobs, {}, "has_jobs has a parameter 'jobs', as experiment() or its table has: give it another name"),
         (holds_a_lock, {}, "holds_a_lock cannot be sent to a worker process: it uses lock"),
         (3, {}, "an experiment needs a function such as `def drive(lesson): …`, got 3"),

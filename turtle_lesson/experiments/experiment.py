@@ -237,24 +237,25 @@ def _check_function(function: Callable[..., Any], parameters: dict[str, Any]) ->
     if not callable(function):
         raise ExperimentError(f"an experiment needs a function such as `def drive(lesson): …`, got {function!r:.80}")
     name, signature, kinds = name_of(function), inspect.signature(function), inspect.Parameter
+    try:
+        signature.bind_partial(None)
+    except TypeError:
+        raise ExperimentError(f"{name} must take the lesson as its first parameter: def {name}(lesson): …") from None
     accepted = list(signature.parameters.values())[1:]
     known = [each.name for each in accepted if each.kind in (kinds.POSITIONAL_OR_KEYWORD, kinds.KEYWORD_ONLY)]
-    own = [each for each in known if each in {*OWN, *inspect.signature(experiment).parameters}]
+    if not any(each.kind is kinds.VAR_KEYWORD for each in accepted):
+        check_names(name, parameters, known)
+    own = [each for each in known if each in inspect.signature(experiment).parameters]
+    own += [each for each in parameters if each in OWN]
     if own:
         raise ExperimentError(
             f"{name} has a parameter {own[0]!r}, as experiment() or its table has: give it another name"
         )
-    if not any(each.kind is kinds.VAR_KEYWORD for each in accepted):
-        check_names(name, parameters, known)
     for parameter in accepted:
         if parameter.name in known and parameter.default is kinds.empty and parameter.name not in parameters:
             raise ExperimentError(
                 f"{name} needs a value of {parameter.name!r}: add {parameter.name}=[…] with the values to try"
             )
-    try:
-        signature.bind(None, **parameters)
-    except TypeError:
-        raise ExperimentError(f"{name} must take the lesson as its first parameter: def {name}(lesson): …") from None
 
 
 def check_names(function: str, parameters: Iterable[str], known: list[str]) -> None:
