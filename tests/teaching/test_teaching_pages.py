@@ -36,6 +36,17 @@ def test_a_page_is_reset_and_mine_is_kept(checkout: Path, mine: Path, capsys: py
     assert mine.with_name(f"{copies.PAGE}.mine-2.ipynb").read_text() == "damaged"
 
 
+def test_a_full_disk_is_said(
+    checkout: Path, mine: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fill_up(path: Path, content: bytes) -> None:
+        raise OSError(28, "No space left on device")  # which names no file
+
+    monkeypatch.setattr("turtle_lesson.teaching.pages.reset", fill_up)
+    assert main(["reset", str(mine)]) == 1
+    assert capsys.readouterr().err == "turtle-lesson reset: [Errno 28] No space left on device\n"
+
+
 def test_a_renamed_copy_is_known_by_its_page(checkout: Path, mine: Path) -> None:
     anna = mine.rename(mine.with_name("anna.ipynb"))
     assert main(["reset", str(anna)]) == 0

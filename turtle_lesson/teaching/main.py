@@ -56,7 +56,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return options.act(options)
     except (pages.PageError, OSError) as error:
-        said = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) else error
+        said = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) and error.filename else error
         print(f"turtle-lesson {options.command}: {said}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
