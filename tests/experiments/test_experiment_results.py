@@ -114,7 +114,9 @@ def test_a_file_gives_back_every_value_as_it_was(kind: str, tmp_path: Path) -> N
 
 def test_what_is_no_table_is_refused(tmp_path: Path) -> None:
     damaged = '# columns: {"a": "int"}\na\n1 +\n'
-    for name, text in (("a.csv", "run,seed\n1,2\n"), ("b.csv", ""), ("c.parquet", "x"), ("d.csv", damaged)):
+    shouted = '# columns: {"a": "bool"}\na\nTRUE\n'  # as spreadsheets write it
+    files = {"a.csv": "run,seed\n1,2\n", "b.csv": "", "c.parquet": "x", "d.csv": damaged, "e.csv": shouted}
+    for name, text in files.items():
         (tmp_path / name).write_text(text)
         with pytest.raises(ExperimentError, match=name):
             read(tmp_path / name)

@@ -181,4 +181,6 @@ def _value(cell: Any, kind: str) -> Any:
         return None
     if kind == "str" or not isinstance(cell, str):
         return cell
-    return cell == "True" if kind == "bool" else float(cell) if kind == "float" else plain(json.loads(cell))
+    if kind == "bool":
+        return {"True": True, "False": False}[cell]  # a spreadsheet may have made TRUE of it
+    return float(cell) if kind == "float" else plain(json.loads(cell))
