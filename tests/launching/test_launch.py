@@ -424,6 +424,11 @@ def test_a_timer_acts_after_its_time_in_robot_time(tmp_path: Path, capsys: pytes
     assert not handle.running
 
 
+def test_a_timer_that_was_cancelled_before_it_began_is_not_waited_for(tmp_path: Path) -> None:
+    _, handle = launch(tmp_path, "*[(timer.cancel(), timer)[1] for timer in [TimerAction(period=2.0, actions=[])]],")
+    assert not handle.running
+
+
 def test_handlers_of_start_output_and_exit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = write(
         tmp_path,

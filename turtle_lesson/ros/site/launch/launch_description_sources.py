@@ -20,9 +20,10 @@ __all__ = ["AnyLaunchDescriptionSource", "FrontendLaunchDescriptionSource", "Pyt
 
 
 class InvalidLaunchFileError(Exception):
-    """A launch file could not be loaded. The text is the real one, without a hint of the simulation's after it.
+    """A launch file could not be loaded. The text has no hint of the simulation's in it.
 
-    A real launch reads what is not Python as XML or YAML then (`tried_both`), and says so.
+    Of a file that is read as Python it is the real text: a real launch reads such a file as XML or YAML, too, and says so
+    (`tried_both`). Of an XML or YAML file it has only what the reader of that format says.
     """
 
     def __init__(self, extension: str, error: Exception, *, tried_both: bool) -> None:

@@ -177,6 +177,8 @@ class TimerAction(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Begin to wait."""
+        if self.__cancelled:
+            return
 
         def time_is_over() -> None:
             if not (self.__cancelled or (self.__cancel_on_shutdown and context.is_shutdown)):
