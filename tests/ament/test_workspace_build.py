@@ -500,6 +500,7 @@ def test_entry_points_of_any_group_are_found_by_a_program(
         ("setup.py", "import find_packages, setup", "import find_package, setup", 1, "ImportError: cannot import name"),
         ("package.xml", "</package>", "", 0, "package.xml: no element found: line"),
         ("package.xml", "<license>", "<licence>", 0, "colcon takes the folder for a Python package without ROS"),
+        ("package.xml", "<license>", "<licence/><license>", 0, "Did you mean 'license'? Until it is corrected"),
         ("package.xml", "0.0.0", "1", 0, "version conventions. A version is three numbers, such as <version>0.1.0"),
     ],
 )

@@ -49,6 +49,11 @@ def test_a_mistake(demo: Path, world: World, case: dict[str, object]) -> None:
         ("cmake_minimum_required(VERSION 3.8)", "", "Write cmake_minimum_required(VERSION 3.8) at the beginning"),
         ("ament_package()", "ament_package()\nament_package()", "Delete line 12."),
         ("# line 5", "include(demo/node.py)", "Only CMakeLists.txt itself is read here"),
+        (
+            "# line 5",
+            "find_package(rosidl_default_generators REQUIRED)\nrosidl_generate_interfaces(${PROJECT_NAME} msg/A.msg)",
+            "Write that file first.",
+        ),
         ("# line 5", f"if({'NOT ' * 5000}X)\nendif()", "is not a condition that CMake knows"),
     ],
 )  # fmt: skip

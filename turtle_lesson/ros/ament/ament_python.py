@@ -59,7 +59,8 @@ class _Build:
         folder, fault = self.found.path, self.found.xml_error
         if fault:
             until = "Until it is corrected, colcon takes the folder for a Python package without ROS."
-            self.hints.append(f"{shown_path(str(folder / 'package.xml'))}: {fault}. {until}")
+            end = "" if fault.endswith("?") else "."
+            self.hints.append(f"{shown_path(str(folder / 'package.xml'))}: {fault}{end} {until}")
         if not (folder / "setup.py").is_file():
             hint = "A package that is built from a CMakeLists.txt says <build_type>ament_cmake</build_type> in package.xml."
             raise BuildFailure(f"error: there is no setup.py in {shown_path(str(folder))}\n", hint, seconds=0.1)

@@ -172,7 +172,8 @@ class InterfaceCheck:
                     f"CMAKE_CURRENT_SOURCE_DIR '{shown_path(str(folder))}'"
                 )
                 there = list(names_in(folder, Path(name).suffix or ".msg"))
-                hint = did_you_mean(name, there) or f"There are: {', '.join(there) or 'none'}."
+                listed = f"There are: {', '.join(there)}." if there else "Write that file first."
+                hint = did_you_mean(name, there) or listed
                 if name.endswith(","):
                     hint = "CMake separates names by spaces or new lines: leave the commas out."
                 raise self._refused(93, text, hint)
