@@ -389,20 +389,23 @@ def test_python_that_could_be_a_command_is_python_if_the_name_is_a_variable() ->
 
 
 def work_of(lines: list[str]) -> int:
-    """How many functions are called to translate these lines."""
-    calls = 0
+    """How many lines are run and functions called to translate these lines."""
+    work = 0
 
-    def count(frame: object, event: str, argument: object) -> None:
-        nonlocal calls
-        calls += event in ("call", "c_call")
+    def count(frame: object, event: str, argument: object) -> Any:
+        nonlocal work
+        work += event in ("line", "call", "c_call")
+        return count
 
-    before = sys.getprofile()
+    before = sys.getprofile(), sys.gettrace()
     sys.setprofile(count)
+    sys.settrace(count)
     try:
         translate(lines)
     finally:
-        sys.setprofile(before)
-    return calls
+        sys.setprofile(before[0])
+        sys.settrace(before[1])
+    return work
 
 
 @pytest.mark.parametrize("piece", ["x;", "1:cd a", "ros2 ;", "if x: ", "'; ls", "[;ls "])

@@ -186,7 +186,9 @@ class _Cell:
         self._begins = [0, *accumulate(map(len, lines))]
         self._variables = variables
         self._known: dict[str, bool] = {}
-        self._read: dict[tuple[int, str], tuple[int, int, str, bool]] = {}
+        self._ends: dict[int, int] = {}
+        # The line at whose end a string is open that is never closed, by its quote.
+        self._endless: dict[str, int] = {}
 
     def has(self, word: str) -> bool:
         """Whether a word is a variable, of the notebook or of this cell."""
@@ -219,32 +221,35 @@ class _Cell:
         if self.lines[at].lstrip().startswith(("%", "!")):
             ends = range(at + 1, len(self.lines))
             return next((end for end in ends if not self.lines[end - 1].rstrip("\n").endswith("\\")), len(self.lines))
-        depth, string = 0, ""
-        for number in range(at, len(self.lines)):
-            if (number, string) not in self._read:  # no line is read again for each statement that begins above it
-                self._read[number, string] = _brackets(self.lines[number], string)
-            closed, opened, string, goes_on = self._read[number, string]
-            depth = opened + (depth - closed if depth > closed else 0)
-            if not (depth or goes_on):
-                return number + 1
-        return at + 1 if depth or string else len(self.lines)
+        if at not in self._ends:
+            self._read_statement(at)
+        return self._ends[at]
 
-
-def _brackets(line: str, string: str) -> tuple[int, int, str, bool]:
-    """What a line of a statement, in which a `string` may be open already, does to it.
-
-    It closes so many of the brackets before it and leaves so many open, leaves a string open, and goes on in the next line.
-    """
-    closed = opened = 0
-    kind = text = ""
-    for kind, text, _ in _pieces(line, string):
-        if kind == "bracket" and _DEEPER[text] > 0:
-            opened += 1
-        elif kind == "bracket" and opened:
-            opened -= 1
-        elif kind == "bracket":
-            closed += 1
-    return closed, opened, text if kind == "open string" else "", kind in ("open string", "backslash")
+    def _read_statement(self, at: int) -> None:
+        """Read to the end of a statement, or of the cell; note where those end that begin in the lines on the way."""
+        begun: list[int] = []  # the line of each statement whose end is not known yet
+        opened: list[int] = []  # the line of each bracket that is open
+        string, since = "", at
+        for line in range(at, len(self.lines)):
+            begun += [] if string else [line]
+            kind = text = ""
+            for kind, text, _ in _pieces(self.lines[line], string):
+                if kind == "bracket" and _DEEPER[text] > 0:
+                    opened.append(line)
+                elif kind == "bracket" and opened:
+                    opened.pop()
+            before, string = string, text if kind == "open string" else ""
+            since = since if string == before else line
+            # A statement ends here if all brackets that are still open were opened before it.
+            while begun and not (opened and opened[-1] >= begun[-1]) and kind not in ("open string", "backslash"):
+                self._ends[begun.pop()] = line + 1
+            if not begun or line >= self._endless.get(string, len(self.lines)):
+                break
+        if string:
+            self._endless[string] = min(since, self._endless.get(string, since))
+        for line in begun:
+            closed = not string and not (opened and opened[-1] >= line)
+            self._ends[line] = len(self.lines) if closed else line + 1
 
 
 def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:
