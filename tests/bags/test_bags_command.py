@@ -240,7 +240,7 @@ def test_a_damaged_bag(terminal: Terminal) -> None:
     assert code == 1
     assert "Topic: /chatter | Type: std_msgs/msg/String | Count: 45 |" in out
     assert err == (
-        "[ERROR] [ros2bag]: the bag is damaged: bag_0.mcap: it ends at byte 50000, in the middle of a record. "
+        "[ERROR] [ros2bag]: the bag is damaged: bag_0.mcap: it ends at byte 50000, before its end record. "
         "90 of 200 messages can be read, 110 are lost\n"
     )
     code, out, err = terminal("ros2 bag play bag")

@@ -220,7 +220,6 @@ def test_metadata_that_lies_never_hides_what_is_there(sound: Sound, tmp_path: Pa
     assert bag.message_count == 2 * COUNT
     assert sorted(read(bag)) == sorted(sound[1])
     assert info_text(bag).count("Topic: /") == 2
-    repr(bag)
 
 
 def test_files_that_are_none(tmp_path: Path) -> None:

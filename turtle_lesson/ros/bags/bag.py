@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from ..runtime.bounded_yaml import LONGEST, safe_load
 from ..sim.simulation import NANOSECONDS
 from . import BagError
-from .scan import Contents, scanned
+from .scan import Contents, contents_of
 
 STORAGES = {".mcap": "mcap", ".db3": "sqlite3"}
 METADATA = "metadata.yaml"
@@ -35,22 +35,18 @@ class Bag:
     """A recording on disk; made by `open_bag`. Times are in ns since 1970, and None where there is no message."""
 
     def __init__(self, path: Path, files: list[Path], contents: Contents, metadata: dict[str, Any]) -> None:
-        times = [entry[0] for entry in contents.entries]
+        self._messages = messages = contents.messages
         self.path = path
         self.files = files
-        self.start: int | None = times[0] if times else None
-        self.end: int | None = times[-1] if times else None
-        self.message_count = len(times)
+        self.start: int | None = messages[0][0] if messages else None
+        self.end: int | None = messages[-1][0] if messages else None
+        self.message_count = len(messages)
         self.size = sum(file.stat().st_size for file in files)
         self.storage = STORAGES[files[0].suffix]
         self.topics = list(contents.topics.values())
         self._flaws = contents.flaws
         promised = metadata.get("message_count")
-        self._expected = promised if isinstance(promised, int) else contents.expected
-
-    def __repr__(self) -> str:
-        damage = ", damaged" if self.damage else ""
-        return f"<Bag {self.path.name}: {self.message_count} messages of {len(self.topics)} topics{damage}>"
+        self._expected = promised if isinstance(promised, int) else None
 
     @property
     def duration(self) -> int:
@@ -75,14 +71,9 @@ class Bag:
         return f"the bag is damaged: {reasons}{more}. {left}"
 
     def messages(self) -> Iterator[Message]:
-        """The messages in the order of their times, each read when it is asked for."""
-        with scanned(self.files) as contents:
-            for time, topic, file, where in contents.entries:
-                try:
-                    data = file.read(where)
-                except Exception as error:
-                    raise BagError(f"the bag '{self.path}' cannot be read to its end: {error}") from error
-                yield Message(topic.name, time, topic.type_name, data)
+        """The messages in the order of their times."""
+        for time, topic, data in self._messages:
+            yield Message(topic.name, time, topic.type_name, bytes(data))
 
 
 def open_bag(path: str | Path) -> Bag:
@@ -96,11 +87,11 @@ def open_bag(path: str | Path) -> Bag:
         raise BagError(f"Bag path '{path}' does not exist!")
     metadata, flaws = _read_metadata(path)
     files, missing = _files_of(path, metadata)
-    with scanned(files) as contents:
-        contents.flaws = [*flaws, *missing, *contents.flaws]
-        if not contents.topics and contents.flaws:
-            raise BagError(f"nothing of the bag '{path}' can be read: {'; '.join(contents.flaws[:3])}")
-        return Bag(path, files, contents, metadata)
+    contents = contents_of(files)
+    contents.flaws = [*flaws, *missing, *contents.flaws]
+    if not contents.topics and contents.flaws:
+        raise BagError(f"nothing of the bag '{path}' can be read: {'; '.join(contents.flaws[:3])}")
+    return Bag(path, files, contents, metadata)
 
 
 def _read_metadata(path: Path) -> tuple[dict[str, Any], list[str]]:
