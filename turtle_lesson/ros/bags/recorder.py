@@ -77,7 +77,7 @@ class _Heard:
     since: int
     writers: list[Writer]
     subscription: Any = None
-    registered: bool = False
+    recordable: bool = True
 
 
 class Recorder:
@@ -88,12 +88,12 @@ class Recorder:
         self._bag = bag
         self._selection = selection
         self._say = say
-        self._heard: dict[str, _Heard] = {}
-        self._refused: set[str] = set()
+        self._seen: set[str] = set()
+        self._heard: list[_Heard] = []
+        self._unregistered: list[_Heard] = []
         self._news: list[tuple[str, str]] = []
         self._looking = False
         self._all_found = False
-        self._simulation = node._ros_simulation
         self._graph = node._ros_graph
         self._guard = node.create_guard_condition(self._tell)
         self._graph.on_change.append(self._look)
@@ -105,51 +105,39 @@ class Recorder:
         if self._looking:
             return  # it is our own subscription that changes the graph
         self._looking = True
-        try:
-            for name, topic in self._graph.topics().items():
-                if name in self._heard:
-                    self._compare(self._heard[name], topic)
-                elif self._selection.takes(name) and (topic.writers or self._selection.unpublished):
-                    self._subscribe(name, topic)
-        finally:
-            self._looking = False
-
-    def _compare(self, heard: _Heard, topic: Topic) -> None:
-        """Warn of new publishers that cannot be heard by the subscription that there is."""
-        for writer, type_name in topic.writers:
-            if writer not in heard.writers and type_name == heard.message_class._TYPE_NAME:
-                heard.writers.append(writer)
-                policy = writer.quality.refusal(heard.subscription._reader.quality)
-                if policy is not None:
-                    self._note(
-                        "WARN",
-                        f"A new publisher for subscribed topic '{heard.name}' was found offering incompatible QoS ({policy}), "
-                        "but rosbag already subscribed. Messages from this new publisher will not be recorded.",
-                    )
+        for name, topic in self._graph.topics().items():
+            if name in self._seen or not (topic.writers or self._selection.unpublished):
+                continue
+            if self._selection.takes(name):
+                self._seen.add(name)
+                self._subscribe(name, topic)
+        self._looking = False
 
     def _subscribe(self, name: str, topic: Topic) -> None:
-        if name in self._refused:
-            return
-        writers = [writer for writer, _ in topic.writers]
+        if len(topic.types) > 1:
+            only = "Only topics with one type are supported"
+            return self._note("WARN", f"Topic '{name}' has more than one type associated. {only}")
         try:
-            heard = _Heard(name, _class_of(name, topic.types), EPOCH + self._simulation.now, writers)
-        except BagError as error:
-            self._refused.add(name)
-            self._note("WARN", str(error))
-            return
-        profile = request_for([writer.quality for writer in writers])
+            message_class = registry.get(topic.types[0])
+        except LookupError as error:
+            return self._note("WARN", f"Topic '{name}' cannot be recorded: {error.args[0]}")
+        writers = [writer for writer, _ in topic.writers]
+        heard = _Heard(name, message_class, EPOCH + self._node._ros_simulation.now, writers)
 
         def write(message: Any, info: Any) -> None:
             # When it arrived, were it not for the moment that everything takes: so in the usual network it is when it was sent.
             self._write(heard, message, info["received_timestamp"] - topic.latency)
 
-        heard.subscription = self._node.create_subscription(heard.message_class, name, write, profile)
-        self._heard[name] = heard
-        self._note("INFO", f"Subscribed to topic '{name}'")
+        profile = request_for([writer.quality for writer in writers])
+        heard.subscription = self._node.create_subscription(message_class, name, write, profile)
+        self._heard.append(heard)
+        self._unregistered.append(heard)
+        return self._note("INFO", f"Subscribed to topic '{name}'")
 
     def _write(self, heard: _Heard, message: Any, sent: int) -> None:
         """Put in a message, at the time at which it was sent; a latched one of before at which it was asked for."""
-        if not self._register(heard):
+        self._register()
+        if not heard.recordable:
             return
         try:
             data = serialize(message)
@@ -158,17 +146,15 @@ class Recorder:
         else:
             self._bag.write(heard.name, heard.message_class._TYPE_NAME, max(sent, heard.since), data)
 
-    def _register(self, heard: _Heard) -> bool:
-        """Make a topic known in the bag, before its first message; False if the bag cannot hold it."""
-        if not heard.registered and heard.name not in self._refused:
-            profiles = [writer.profile for writer in heard.writers if hasattr(writer, "profile")]
+    def _register(self) -> None:
+        """Make the new topics known in the bag, before their first message, but not before their publishers are complete."""
+        while self._unregistered:
+            heard = self._unregistered.pop(0)
             try:
-                self._bag.add_topic(heard.name, heard.message_class, profiles)
-                heard.registered = True
+                self._bag.add_topic(heard.name, heard.message_class, [writer.profile for writer in heard.writers])
             except UnrecordableType as error:
-                self._refused.add(heard.name)
+                heard.recordable = False
                 self._note("WARN", str(error))
-        return heard.registered
 
     def _note(self, severity: str, text: str) -> None:
         """Say this soon, in our own process."""
@@ -176,34 +162,31 @@ class Recorder:
         self._guard.trigger()
 
     def _tell(self) -> None:
-        for heard in list(self._heard.values()):
-            self._register(heard)
+        self._register()
         while self._news:
             self._say(*self._news.pop(0))
-        if not self._all_found and self._heard and self._heard.keys() == set(self._selection.topics):
+        if not self._all_found and self._heard and {heard.name for heard in self._heard} == set(self._selection.topics):
             self._all_found = True
             self._say("INFO", "All requested topics are subscribed. Stopping discovery...")
 
     def silent(self) -> list[str]:
         """A sentence for each topic that was asked for by name and never appeared."""
         known = self._graph.topics()
-        missing = [name for name in self._selection.topics if name not in self._heard and name not in self._refused]
         return [
             f"no node published on {name} while the bag was recorded, so the bag contains none of its messages. "
             f"{did_you_mean(name, known)}".rstrip()
-            for name in missing
+            for name in self._selection.topics
+            if name not in self._seen
         ]
 
     def close(self) -> None:
         """Take what has arrived and what is under way, and complete the bag."""
-        if self._look in self._graph.on_change:
-            self._graph.on_change.remove(self._look)
-        for heard in self._heard.values():
+        self._graph.on_change.remove(self._look)
+        for heard in self._heard:
             while heard.subscription._has_work():
                 heard.subscription.callback(*heard.subscription._take())
             for sent, message in heard.subscription._reader.under_way():
                 self._write(heard, message, EPOCH + sent)
-            self._register(heard)
         self._tell()
         self._bag.close()
 
@@ -216,18 +199,6 @@ def request_for(qualities: Sequence[Any]) -> QoSProfile:
     reliable = all(quality.reliable for quality in qualities)
     latched = bool(qualities) and all(quality.latched for quality in qualities)
     return profile_of(reliable=reliable, latched=latched, keep_all=True)
-
-
-def _class_of(name: str, types: list[str]) -> Any:
-    if len(types) > 1:
-        raise BagError(f"Topic '{name}' has more than one type associated. Only topics with one type are supported")
-    try:
-        return registry.get(types[0])
-    except Exception as error:
-        raise BagError(
-            f"Topic '{name}' has unknown type '{types[0]}' associated. Only topics with known type are supported. "
-            f"Reason: {error.args[0] if error.args else error}"
-        ) from None
 
 
 def record(
