@@ -323,24 +323,10 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
         ),
         ("<nod/>", "Unrecognized entity of the type: nod", "Did you mean 'node'?"),
         (
-            "<for_each/>",
-            "Unrecognized entity of the type: for_each",
-            "Loops are not available in XML and YAML files here: write the file in Python, with a loop.",
-        ),
-        (
-            "<set_ros_log_dir/>",
-            "Unrecognized entity of the type: set_ros_log_dir",
-            "There are no log files here.",
-        ),
-        (
             '<log message="$(param depth)"/>',
             "Unknown substitution: param",
-            "$(param …) is not available here: use $(var …) of an argument.",
-        ),
-        (
-            '<log message="$(any 1 0)"/>',
-            "Unknown substitution: any",
-            "$(any …) is not available here: use $(or …).",
+            "Available here are: and, command, dirname, env, equals, eval, exec-in-pkg, filename, find-exec, find-pkg-prefix, "
+            "find-pkg-share, not, not-equals, or, var.",
         ),
         (
             '<node package="robot_controller" executable="navigator"/>',
@@ -373,11 +359,6 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
             f"{NODE}><param name='x' from='y'/></node>",
             "name and from attributes are mutually exclusive",
             "",
-        ),
-        (
-            '<unset_env name="x"/>',
-            "Unrecognized entity of the type: unset_env",
-            "It is not available here: put what belongs together into a group.",
         ),
         (
             '<group scoped="maybe"/>',

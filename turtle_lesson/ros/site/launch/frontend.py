@@ -105,28 +105,11 @@ def expose_substitution(name: str) -> Callable[[Kind], Kind]:
     return expose
 
 
-_LOOP = "Loops are not available in XML and YAML files here: write the file in Python, with a loop."
-_GROUP = "It is not available here: put what belongs together into a group."
-_NOT_HERE = {
-    **dict.fromkeys(("for", "for_each", "for-var", "index"), _LOOP),
-    **dict.fromkeys(("log_dir", "launch_log_dir", "set_ros_log_dir"), "There are no log files here."),
-    **dict.fromkeys(("push_env", "pop_env", "reset", "reset_env", "unset", "unset_env"), _GROUP),
-    "all": "$(all …) is not available here: use $(and …).",
-    "any": "$(any …) is not available here: use $(or …).",
-    "if": "$(if …) is not available here: use $(eval …).",
-    "param": "$(param …) is not available here: use $(var …) of an argument.",
-    "set_parameters_from_file": "It is not available here: give each node a param with the attribute from.",
-    "lifecycle_transition": "It is not available here: give lifecycle_node the attribute autostart.",
-    "string-join": "$(string-join …) is not available here: write the pieces one after the other.",
-}
-"""What a real launch has and this one does not, with what to do instead."""
-
-
 def _named(known: Mapping[str, Kind], name: str, complaint: str) -> Kind:
     if name in known:
         return known[name]
-    close = did_you_mean(str(name)[:100], sorted(known)) or f"There are: {', '.join(sorted(known))}."
-    raise explained(RuntimeError(f"{complaint}{name}"), _NOT_HERE.get(name) or close)
+    hint = did_you_mean(name[:100], known) or f"Available here are: {', '.join(sorted(known))}."
+    raise explained(RuntimeError(f"{complaint}{name}"), hint)
 
 
 def action_of(entity: Entity) -> Action:
