@@ -319,7 +319,7 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
         (
             f"{NODE}><arg name='x'/></node>",
             "Unexpected nested tag(s) found in `node`: {'arg'}",
-            "`node` can have: env, param, remap.",
+            "Did you mean 'args'?",
         ),
         ("<nod/>", "Unrecognized entity of the type: nod", "Did you mean 'node'?"),
         (
@@ -336,7 +336,7 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
         (
             '<node pkg="robot_controller"><exec>navigator</exec></node>',
             "Attribute 'exec' of Entity 'node' expected to be of type '<class 'str'>', got '<class 'list'>'",
-            'Write it as an attribute: exec="…".',
+            "Write exec as an attribute, with its value in quotation marks.",
         ),
         (
             '<include path="x"/>',
@@ -392,19 +392,19 @@ def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said
             "- node:\n  pkg: robot_controller\n  exec: navigator\n",
             "Subentity must be a dictionary with only one key, which is the entity type",
             2,
-            "Indent what belongs to node deeper than node itself.",
+            "Write each item as - node: (or another action), and indent what belongs to it deeper.",
         ),
         (
             "- arg:\n    name: x\n    default: 5\n",
             "Attribute 'default' of Entity 'arg' expected to be of type '<class 'str'>', got '<class 'int'>'",
             2,
-            'Put it into quotation marks: default: "5"',
+            "Write default as an attribute, with its value in quotation marks.",
         ),
         (
             "- node:\n    pkg: a\n    exec: b\n    param:\n      name: x\n",
             "Attribute 'param' of Entity 'node' expected to be a list of dictionaries.",
             2,
-            "Begin each param with a hyphen.",
+            "Write each param as a tag of its own; in YAML it begins with a hyphen.",
         ),
         (
             "- log: {message: x}\n- node: {pkg: a, exec: b, outputs: screen}\n",

@@ -25,10 +25,6 @@ MEANT = {
 """What attributes are called in Python launch files or in ROS 1, and what they are called here."""
 
 
-TAGS, ATTRIBUTES = "nested tag(s)", "attribute(s)"
-"""What XML calls what can stand in a tag."""
-
-
 class Mapping(dict[Any, Any]):
     """What stands in a tag, by name: the values of its attributes, and for each name of tags in it a list of them.
 
@@ -52,7 +48,7 @@ class Entity:
         self.type_name = type_name
         self.place = place
         self._written = inside
-        self._asked: dict[str, str] = {}
+        self._asked: set[str] = set()
 
     @cached_property
     def _inside(self) -> Mapping:
@@ -71,7 +67,7 @@ class Entity:
         """The tags in it. In YAML they are its list, or the list called `children` in its mapping."""
         below = self._inside.in_xml
         if below is None:
-            self._asked["children"] = TAGS
+            self._asked.add("children")
             if "children" not in self._inside:
                 raise ValueError(
                     f"Expected entity `{self.type_name}` to have children entities."
@@ -82,25 +78,22 @@ class Entity:
         for item in below if isinstance(below, list) else [below]:
             if not isinstance(item, Mapping) or len(item) != 1:
                 error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
-                hint = "Each item is a hyphen, the name of an action and a colon, as in - node:"
-                if isinstance(item, Mapping) and item:
-                    hint = f"Indent what belongs to {next(iter(item))} deeper than {next(iter(item))} itself."
-                    explained(error, place=(self.place[0], item.line))
-                raise explained(error, hint)
+                hint = "Write each item as - node: (or another action), and indent what belongs to it deeper."
+                line = item.line if isinstance(item, Mapping) else self.place[1]
+                raise explained(error, hint, (self.place[0], line))
             [(name, inside)] = item.items()
             if self._inside.in_xml is not None:
-                self._asked[name] = TAGS
+                self._asked.add(name)
             found.append(self._entity(name, inside, item.line))
         return found
 
     def nested(self, name: str) -> list[Entity]:
         """The tags of a name in it."""
-        self._asked[name] = TAGS
+        self._asked.add(name)
         given = self._inside.get(name, [])
         if not isinstance(given, list) or not all(isinstance(item, Mapping) for item in given):
             error = TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
-            in_xml = f"Write it as a tag, <{name} …/>."
-            raise explained(error, f"Begin each {name} with a hyphen." if self._inside.in_xml is None else in_xml)
+            raise explained(error, f"Write each {name} as a tag of its own; in YAML it begins with a hyphen.")
         return [self._entity(name, item, item.line) for item in given]
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
@@ -110,17 +103,14 @@ class Entity:
         which may have substitutions in it, is as good. Raises AttributeError if it is absent and not optional, and
         TypeError for another type.
         """
-        self._asked[name] = ATTRIBUTES
+        self._asked.add(name)
         value: Any = self._inside.get(name)
         if name not in self._inside:
             if optional:
                 return None
-            other = next((word for word in self._inside if MEANT.get(word) == name), None)
-            hint = (
-                f"It is called {name} here, not {other}." if other else f"Give {self.type_name} the attribute {name}."
-            )
+            other = next((f"not {word}" for word in self._inside if MEANT.get(word) == name), "and is needed")
             what = f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'"
-            raise explained(AttributeError(what), hint)
+            raise explained(AttributeError(what), f"It is called {name} here, {other}.")
         expected = f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}'"
         if self._inside.in_xml is not None and isinstance(value, str):
             try:
@@ -128,11 +118,8 @@ class Entity:
             except ValueError:
                 raise TypeError(f"{expected}.'{value}' can not be converted to one of those types") from None
         if not is_of_type(value, data_type, can_be_str):
-            is_plain = data_type is str and isinstance(value, bool | int | float)
-            hint = f'Put it into quotation marks: {name}: "{value}"' if is_plain else ""
-            if self._inside.in_xml is not None:  # the tags of this name in it
-                hint = f'Write it as an attribute: {name}="…".'
-            raise explained(TypeError(f"{expected}, got '{type(value)}'"), hint)
+            hint = f"Write {name} as an attribute, with its value in quotation marks."
+            raise explained(TypeError(f"{expected}, got '{type(value)}'"), hint if data_type is str else "")
         return value
 
     def _value_in_text(self, name: str, text: str, data_type: Any, can_be_str: bool) -> Any:
@@ -140,27 +127,24 @@ class Entity:
         separator = self._inside.get(f"{name}-sep")
         if separator is None:
             return value_in_text(text, data_type, can_be_str)
-        self._asked[f"{name}-sep"] = ATTRIBUTES
+        self._asked.add(f"{name}-sep")
         item_type = next(iter(get_args(data_type)), None)
         items = text.split(separator) if separator else [text]
         return [value_in_text(item, item_type, can_be_str) for item in items]
 
     def ignore_rest(self) -> None:
         """Pass over whatever was not asked for, as the way in which an action reads its tag."""
-        self._asked |= dict.fromkeys(self._inside, ATTRIBUTES)
+        self._asked.update(self._inside)
 
     def assert_entity_completely_parsed(self) -> None:
         """Check that everything in it was asked for. Raises ValueError naming what nobody knows, and what was perhaps meant."""
-        left = sorted(self._inside.keys() - self._asked, key=str)
-        for kind in (TAGS, ATTRIBUTES):
-            known, called = sorted(self._asked), "key(s)"
-            names = left
-            if self._inside.in_xml is not None:
-                known, called = [name for name in known if self._asked[name] == kind], kind
-                names = [name for name in left if isinstance(self._inside[name], list) == (kind == TAGS)]
-            if names:
-                what = f"Unexpected {called} found in `{self.type_name}`: {{{', '.join(map(repr, names))}}}"
-                hints = [f"Did you mean '{MEANT[name]}'?" for name in names if MEANT.get(name) in known]
-                hints += [did_you_mean(str(name)[:100], known) for name in names]
-                takes = f"`{self.type_name}` can have: {', '.join(known)}." if known else ""
-                raise explained(ValueError(what), next(filter(None, hints), takes))
+        names, kind = sorted(self._inside.keys() - self._asked, key=str), "key(s)"
+        if self._inside.in_xml is not None:
+            nested = [name for name in names if isinstance(self._inside[name], list)]
+            names, kind = (nested, "nested tag(s)") if nested else (names, "attribute(s)")
+        if names:
+            what = f"Unexpected {kind} found in `{self.type_name}`: {{{', '.join(map(repr, names))}}}"
+            known = sorted(self._asked)
+            hints = [f"Did you mean '{MEANT[name]}'?" for name in names if MEANT.get(name) in known]
+            hints += [did_you_mean(str(name)[:100], known) for name in names]
+            raise explained(ValueError(what), next(filter(None, hints), f"It can have: {', '.join(known)}."))
