@@ -43,9 +43,6 @@ _HINTS = {
     "not well-formed (invalid token)": "Put values in quotation marks; & is written &amp; and < is &lt;.",
     "no element found": "The file ends too early: is </launch> missing?",
     "junk after document element": "Put everything between <launch> and </launch>.",
-    "unclosed token": "A tag is not closed: is > or a quotation mark missing?",
-    "duplicate attribute": "A tag can have each attribute only once.",
-    "syntax error": "Put everything in tags: the file begins with <launch>.",
 }
 """What to try, by what the parser says of a text that is not well formed."""
 

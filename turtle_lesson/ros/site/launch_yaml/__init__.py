@@ -24,7 +24,8 @@ def read(file: str) -> Entity:
         tree = loader.get_single_data()
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
-        explained(error, _hint(error), None if mark is None else (file, mark.line + 1))
+        hint = next((hint for said, hint in _HINTS.items() if said in str(error.problem)), "")
+        explained(error, hint, None if mark is None else (file, mark.line + 1))
         raise
     finally:
         loader.dispose()
@@ -48,17 +49,12 @@ def _mapping(loader: _Loader, node: yaml.MappingNode) -> Iterator[Mapping]:
 _Loader.add_constructor("tag:yaml.org,2002:map", _mapping)
 
 
-def _hint(error: yaml.MarkedYAMLError) -> str:
-    problem = str(error.problem or "")
-    if "\\t" in problem:
-        return "YAML is indented with spaces, never with tabs."
-    if "mapping values are not allowed" in problem or "found character '%'" in problem:
-        return "Put a value that contains ': ' in quotation marks, and indent all items of one level alike."
-    if "flow mapping" in str(error.context or ""):
-        return "Within {…}, put a value that contains braces, commas or quotation marks in quotation marks."
-    if "expected <block end>" in problem or "could not find expected ':'" in problem:
-        return "Look at the indentation of this line and of the one before."
-    return ""
+_HINTS = {
+    "\\t": "YAML is indented with spaces, never with tabs.",
+    "mapping values are not allowed": "Put a value that contains ': ' in quotation marks, and indent all items alike.",
+    "expected": "Look at the indentation, brackets and quotation marks of this line and of the one before.",
+}
+"""What to try, by a part of what the parser says of a text that is no YAML."""
 
 
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
