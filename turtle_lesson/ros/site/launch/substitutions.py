@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import math
 import os
@@ -13,11 +12,13 @@ from operator import attrgetter
 from typing import Any
 
 from turtle_lesson.ros import hooks
+from turtle_lesson.ros.idl.names import did_you_mean
 
 from ._context import LaunchContext
 from ._entities import SomeSubstitutionsType, Substitution, TextSubstitution, described, explained, text_of
 from ._entities import normalize_to_list_of_substitutions as pieces
 from .frontend import expose_substitution
+from .utilities import perform_text_as
 
 __all__ = [
     "AndSubstitution",
@@ -68,12 +69,8 @@ class LaunchConfiguration(Substitution):
             return str(context.launch_configurations[name])
         if self.default is not None:
             return text_of(context, self.default)
-        close = difflib.get_close_matches(name, list(context.launch_configurations), n=1)
-        declare = (
-            f"Before its first use put DeclareLaunchArgument('{name}', default_value='…'), "
-            f'in XML <arg name="{name}" default="…"/>.'
-        )
-        hint = f"Did you mean LaunchConfiguration('{close[0]}')?" if close else declare
+        declare = f"DeclareLaunchArgument('{name}', default_value='…'), in XML <arg name=\"{name}\" default=\"…\"/>"
+        hint = did_you_mean(name[:100], context.launch_configurations) or f"Before its first use put {declare}."
         raise explained(SubstitutionFailure(f"launch configuration '{name}' does not exist"), hint)
 
 
@@ -161,29 +158,29 @@ class PythonExpression(Substitution):
 # -- truth values --------------------------------------------------------------------------------------------------------
 
 
-def _truth(context: LaunchContext, value: SomeSubstitutionsType) -> bool:
-    """Whether a text says yes; SubstitutionFailure if it says neither yes nor no."""
-    text = text_of(context, value).strip()
-    if text.lower() in {"true", "1", "yes", "on"}:
-        return True
-    if text.lower() in {"false", "0", "no", "off"}:
-        return False
-    raise SubstitutionFailure(f"'{text}' is neither true nor false")
+class _Truth(Substitution):
+    """Something that holds or not."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """`true` or `false`. Raises TypeError if a part that must be a truth value is none."""
+        return str(self._holds(context)).lower()
+
+    def _holds(self, context: LaunchContext) -> bool:
+        raise NotImplementedError
 
 
 @expose_substitution("not")
-class NotSubstitution(Substitution):
+class NotSubstitution(_Truth):
     """True if its part is false."""
 
     value: SomeSubstitutionsType
 
-    def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
-        return str(not _truth(context, self.value)).lower()
+    def _holds(self, context: LaunchContext) -> bool:
+        return not perform_text_as(context, self.value, bool)
 
 
 @dataclass(repr=False, eq=False)
-class _Pair(Substitution):
+class _Pair(_Truth):
     """Two texts made into a truth value."""
 
     left: SomeSubstitutionsType
@@ -194,47 +191,43 @@ class _Pair(Substitution):
 class AndSubstitution(_Pair):
     """True if both are."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
-        return str(_truth(context, self.left) and _truth(context, self.right)).lower()
+    def _holds(self, context: LaunchContext) -> bool:
+        return all(perform_text_as(context, side, bool) for side in (self.left, self.right))
 
 
 @expose_substitution("or")
 class OrSubstitution(_Pair):
     """True if one is."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
-        return str(_truth(context, self.left) or _truth(context, self.right)).lower()
+    def _holds(self, context: LaunchContext) -> bool:
+        return any(perform_text_as(context, side, bool) for side in (self.left, self.right))
 
 
 @expose_substitution("equals")
 class EqualsSubstitution(_Pair):
-    """`true` if both sides are the same text, the same truth value, or numbers that are nearly equal."""
+    """True if both sides are the same text, the same truth value, or numbers that are nearly equal."""
 
     def __post_init__(self) -> None:
         for name, side in vars(self).items():
             setattr(self, name, "" if side is None else str(side).lower() if isinstance(side, int | float) else side)
         super().__post_init__()
 
-    def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
+    def _holds(self, context: LaunchContext) -> bool:
         left, right = text_of(context, self.left), text_of(context, self.right)
         if {left.lower(), right.lower()} <= {"true", "false"} or left == right:
-            return str(left.lower() == right.lower()).lower()
+            return left.lower() == right.lower()
         try:
-            return str(math.isclose(float(left), float(right))).lower()
+            return math.isclose(float(left), float(right))
         except ValueError:
-            return "false"
+            return False
 
 
 @expose_substitution("not-equals")
 class NotEqualsSubstitution(EqualsSubstitution):
     """The opposite."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """`true` or `false`."""
-        return "false" if super().perform(context) == "true" else "true"
+    def _holds(self, context: LaunchContext) -> bool:
+        return not super()._holds(context)
 
 
 # -- paths, and what commands print --------------------------------------------------------------------------------------
