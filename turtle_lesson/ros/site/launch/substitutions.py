@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import math
 import os
-import shutil
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from operator import attrgetter
@@ -253,20 +252,14 @@ class PathJoinSubstitution(Substitution):
 
 @expose_substitution("find-exec")
 class FindExecutable(Substitution):
-    """Stands for the path at which a program is found; those that the simulation has are found by their names."""
+    """Stands for a program, which is found here by its name alone, so that it is the same on every computer."""
 
     name: SomeSubstitutionsType = field(kw_only=True)
     _shown = "FindExec({name})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path. Raises SubstitutionFailure if it is not on the PATH."""
-        name = text_of(context, self.name)
-        if name in ("ros2", "python3", "python", "xacro"):
-            return name
-        path = shutil.which(name, path=context.environment.get("PATH"))
-        if path is None:
-            raise SubstitutionFailure(f"executable '{name}' not found on the PATH")
-        return path
+        """The name. Whether there is such a program shows when it is started."""
+        return text_of(context, self.name)
 
 
 @expose_substitution("command")
