@@ -354,7 +354,8 @@ def test_what_ros2_launch_says_when_the_file_is_not_found(tmp_path: Path) -> Non
 def test_a_path_that_does_not_exist(tmp_path: Path) -> None:
     write(tmp_path, "", "real.launch.py")
     error = failure(tmp_path / "rael.launch.py")
-    assert str(error) == f"there is no launch file {tmp_path}/rael.launch.py\n  There are: real.launch.py."
+    assert error.reason == f"[Errno 2] No such file or directory: '{tmp_path}/rael.launch.py'"
+    assert error.hint == "Did you mean 'real.launch.py'?"
 
 
 @pytest.mark.parametrize(

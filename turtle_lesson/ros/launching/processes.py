@@ -86,9 +86,6 @@ class RunningProcess:
         self._retries = 0
         self._terminated = False
 
-    def __repr__(self) -> str:
-        return f"<RunningProcess {self.name}, {'alive' if self.alive else 'ended'}>"
-
     @property
     def alive(self) -> bool:
         """Whether it runs."""

@@ -23,11 +23,10 @@ from launch.events import IncludeLaunchDescription as Included
 from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-from ..ament.index import LaunchedPackages, is_launch_file, seeing
+from ..ament.index import LaunchedPackages, seeing
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
 from ..runtime.world import current_world, run_for
-from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from .errors import LaunchError, as_launch_error, learners_cause
@@ -305,20 +304,18 @@ def launch_file(
 
     Raises LaunchError if the file cannot be carried out; nothing was started then.
     """
-    source = AnyLaunchDescriptionSource(_existing(Path(path)))
-    return _begin(world, source, arguments, Path(path).name, show_all_output)
+    source = AnyLaunchDescriptionSource(str(Path(path).resolve()))
+    return _begin(world, source, arguments or {}, Path(path).name, show_all_output)
 
 
-def launch_description(
-    world: World, description: LaunchDescription, arguments: Mapping[str, object] | None = None
-) -> LaunchHandle:
+def launch_description(world: World, description: LaunchDescription) -> LaunchHandle:
     """Carry out a description that was made in a notebook cell. As `launch_file` otherwise."""
-    return _begin(world, LaunchDescriptionSource(description), arguments, "a description")
+    return _begin(world, LaunchDescriptionSource(description), {}, "a description")
 
 
 def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgument]:
     """The arguments that a launch file takes. Raises LaunchError if the file cannot be loaded."""
-    source = AnyLaunchDescriptionSource(_existing(Path(path)))
+    source = AnyLaunchDescriptionSource(str(path))
     try:
         with seeing(LaunchedPackages(world.packages)):
             return source._get_launch_description(str(path)).get_launch_arguments()
@@ -336,24 +333,16 @@ def show_arguments(world: World, path: Path | str) -> str:
     return "\n\n".join(parts if len(parts) > 1 else [*parts, "  No arguments."])
 
 
-def _existing(path: Path) -> str:
-    if path.is_file():
-        return str(path.resolve())
-    others = sorted(other.name for other in path.parent.glob("*") if is_launch_file(other.name))
-    hint = f"There are: {', '.join(others)}." if others else ""
-    raise LaunchError(f"there is no launch file {shown_path(str(path))}", None, hint)
-
-
 def _begin(
     world: World,
     source: LaunchDescriptionSource,
-    arguments: Mapping[str, object] | None,
+    arguments: Mapping[str, object],
     name: str,
     show_all_output: bool = False,
 ) -> LaunchHandle:
     given = {  # as on a command line, where True is `true`
         argument: str(value).lower() if isinstance(value, bool) else str(value)
-        for argument, value in (arguments or {}).items()
+        for argument, value in arguments.items()
     }
     service = LaunchService(world)
     service.context._output_override = "both" if show_all_output else None

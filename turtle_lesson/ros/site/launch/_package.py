@@ -69,7 +69,5 @@ def _missing(module: ModuleType, real: Mapping[str, str], name: str) -> Any:
     begin = f"{module.__name__} has no {name!r}"
     if name in real:
         raise ImportError(f"{begin} here yet: {real[name]}", name=module.__name__)
-    if close := difflib.get_close_matches(name, [*here, *real], n=1):
-        raise ImportError(f"{begin}; did you mean {close[0]!r}?", name=module.__name__)
-    classes = sorted(public for public in here if public[0].isupper())
-    raise ImportError(f"{begin}. It has: {', '.join(classes or sorted(here))}", name=module.__name__)
+    close = difflib.get_close_matches(name, [*here, *real], n=1)
+    raise ImportError(f"{begin}; did you mean {close[0]!r}?" if close else begin, name=module.__name__)

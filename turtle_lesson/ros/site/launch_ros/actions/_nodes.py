@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar, NoReturn
 
 import yaml
-from launch import Action, Condition, LaunchContext, LaunchDescriptionEntity, logging
+from launch import Action, Condition, LaunchContext, logging
 from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
 from launch._entities import normalize_to_list_of_substitutions as pieces
 from launch.actions import ExecuteProcess
@@ -113,25 +113,11 @@ class Node(ExecuteProcess):
                 )
         self.expanded_node_name = self.UNSPECIFIED_NODE_NAME
         self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
-        self._ros_words: list[str] = []
 
     @property
     def node_name(self) -> str:
         """The node's full name, as far as the launch file decides it."""
         return f"{self.expanded_node_namespace.rstrip('/')}/{self.expanded_node_name}"
-
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Have the node started.
-
-        Raises NotHereError if only a robot can start it; that is said before its parameters are looked at.
-        """
-        if self.__in_package is not None:
-            self.__in_package.target(context)
-        self._ros_words = [*self._name_words(context), *self._parameter_words(context)]
-        own = [(text_of(context, source), text_of(context, target)) for source, target in self.__remappings]
-        for source, target in [*context.launch_configurations.get("ros_remaps", []), *own]:
-            self._ros_words += ["-r", f"{source}:={target}"]
-        return super().execute(context)
 
     def _name_words(self, context: LaunchContext) -> list[str]:
         words = []
@@ -173,7 +159,10 @@ class Node(ExecuteProcess):
         return ["--params-file", str(file_for_this_launch(self, "parameter.yaml", text))]
 
     def _find_program(self, context: LaunchContext) -> Program:
-        argv = [*self.cmd, *self._ros_words]
+        argv = [*self.cmd, *self._name_words(context), *self._parameter_words(context)]
+        own = [(text_of(context, source), text_of(context, target)) for source, target in self.__remappings]
+        for source, target in [*context.launch_configurations.get("ros_remaps", []), *own]:
+            argv += ["-r", f"{source}:={target}"]
         # a file made for this launch lies elsewhere in every run
         words = [re.sub(r".*/launch_params_\w+/", "launch_params/", word) for word in argv[1:] if word.strip()]
         shown = " ".join([shown_path(argv[0]), *words])
