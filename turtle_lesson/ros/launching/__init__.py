@@ -10,8 +10,7 @@ world runs. Python programs come up one after the other, each 0.3 s of robot tim
 
 from __future__ import annotations
 
-from importlib.util import find_spec
-from pathlib import Path
+import importlib
 from typing import TYPE_CHECKING, Any
 
 from .errors import LaunchError, find_launch_file
@@ -29,25 +28,9 @@ __all__ = [
     "show_arguments",
 ]
 
-_SITE = Path(__file__).resolve().parents[1] / "site"
-
 
 def __getattr__(name: str) -> Any:
-    """What needs the package `launch` is imported when it is first asked for.
-
-    Raises LaunchError if another package named launch or launch_ros hides the simulation's.
-    """
+    """What needs the package `launch` is imported when it is first asked for."""
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    for package in ("launch", "launch_ros", "launch_xml", "launch_yaml"):
-        spec = find_spec(package)
-        if spec is None or not spec.origin or _SITE not in Path(spec.origin).resolve().parents:
-            raise LaunchError(
-                f"`import {package}` finds {spec.origin if spec else 'nothing'}, not the simulation's package",
-                None,
-                "If a real ROS 2 is sourced, start Jupyter from a terminal without it; if pip installed it, "
-                f"pip uninstall {package}.",
-            )
-    from . import service
-
-    return getattr(service, name)
+    return getattr(importlib.import_module(".service", __name__), name)

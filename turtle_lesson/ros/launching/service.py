@@ -341,8 +341,7 @@ def _begin(
     show_all_output: bool = False,
 ) -> LaunchHandle:
     given = {  # as on a command line, where True is `true`
-        argument: str(value).lower() if isinstance(value, bool) else str(value)
-        for argument, value in arguments.items()
+        argument: str(value).lower() if isinstance(value, bool) else str(value) for argument, value in arguments.items()
     }
     service = LaunchService(world)
     service.context._output_override = "both" if show_all_output else None
