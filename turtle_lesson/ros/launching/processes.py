@@ -66,8 +66,7 @@ class _Output(io.TextIOBase):
 
     def _show(self, line: str) -> None:
         if self._shown:
-            action = self._process.action
-            self._process.service.line(action.output_format.format(line=line, this=action))
+            self._process.service.line(f"[{self._process.name}] {line}")
 
     def _tell(self) -> None:
         text, self._untold = self._untold, ""

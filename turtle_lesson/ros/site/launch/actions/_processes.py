@@ -136,7 +136,6 @@ class ExecuteProcess(Action):
         self.shell = shell
         self.sigterm_timeout = pieces(sigterm_timeout)
         self.output = output if isinstance(output, Mapping) else pieces(output)
-        self.output_format = output_format
         self.__on_exit = on_exit
         self.__respawn = pieces(str(respawn) if isinstance(respawn, bool) else respawn)
         self.respawn_delay = respawn_delay
@@ -158,11 +157,6 @@ class ExecuteProcess(Action):
             raise explained(error, "Write its words in a list, as in cmd=['ros2', 'topic', 'list'].")
         self.cmd = [text_of(context, word) for word in self._words]
         self.name = f"{text_of(context, self._name) or os.path.basename(self.cmd[0])}-{next(context._host.numbers)}"
-        try:
-            self.output_format.format(line="", this=self)
-        except (AttributeError, LookupError, TypeError, ValueError) as error:
-            what = f"output_format={self.output_format!r} cannot be filled in: {error!r}"
-            raise explained(ValueError(what), "Write output_format='[{this.name}] {line}'.") from None
         alone = context.environment if self._env is None else _variables(context, self._env)
         self._program = self._find_program(context)
         self._respawns = evaluate_condition_expression(context, self.__respawn)
