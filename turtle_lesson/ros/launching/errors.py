@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import importlib
 import inspect
 import linecache
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -70,9 +70,8 @@ def _place_of(error: BaseException, written_at: Place | None) -> Place | None:
     """
     linecache.checkcache()
     causes = _causes(error)[::-1]
-    for place in (getattr(cause, "place", None) for cause in causes):
-        if place is not None:
-            return place
+    for place in filter(None, (getattr(cause, "place", None) for cause in causes)):
+        return place
     for cause in causes:
         if isinstance(cause, SyntaxError) and cause.filename and cause.lineno and not is_ours(cause.filename):
             return cause.filename, cause.lineno
@@ -130,57 +129,39 @@ def _missing_file(path: Path) -> str:
         return "That is a folder; name the launch file in it."
     if not path.parent.is_dir():
         return f"There is no folder {shown_path(str(path.parent))}."
-    if close := did_you_mean(path.name, sorted(other.name for other in path.parent.iterdir())):
-        return close
-    if "launch" not in path.name:
-        return ""
-    names = sorted(other.name for other in path.parent.iterdir() if index.is_launch_file(other.name))
-    if not path.is_absolute() and not names:
-        return "A launch file is given by its full path: PathJoinSubstitution([FindPackageShare(…), 'launch', …])."
-    return f"There are: {', '.join(names)}." if names else ""
+    return did_you_mean(path.name, [other.name for other in path.parent.iterdir()])
 
 
 def _undefined(name: str) -> str:
-    """Where launch files import a name from."""
-    modules = (
-        "launch_ros.actions", "launch.actions", "launch.substitutions", "launch.conditions", "launch.event_handlers",
-        "launch.launch_description_sources", "launch_ros.substitutions", "ament_index_python.packages", "launch",
-        "launch_ros.parameter_descriptions", "launch_ros.descriptions", "launch_ros.event_handlers", "launch.events",
-        "launch_ros.events.lifecycle", "launch_xml.launch_description_sources", "launch_yaml.launch_description_sources",
-    )  # fmt: skip
-    homes: dict[str, str] = {}
-    for module in modules:
-        found = importlib.import_module(module)
-        for public in getattr(found, "__all__", vars(found)):
-            homes.setdefault(public, module)
+    """Where launch files import a name from; of several modules it is one of actions, or the one with the shortest path."""
+    import launch_ros  # noqa: F401  (may not have been imported yet)
+
+    ours = [path for path in sys.modules if re.fullmatch(r"(launch|launch_ros)(\.[a-z]\w*)*", path)]
+    ours.sort(key=lambda path: ("actions" in path, -len(path)))  # a later one replaces what was found before
+    homes = {public: path for path in ours for public in getattr(sys.modules[path], "__all__", ())}
+    homes |= dict.fromkeys(("get_package_share_directory", "get_package_prefix"), "ament_index_python.packages")
     if name in homes:
         return f"Add at the top of the file: from {homes[name]} import {name}"
     return did_you_mean(name, homes)
 
 
 def _unexpected_keyword(name: str) -> str:
-    import launch.actions
-    import launch_ros.actions
+    from launch.actions import ExecuteProcess
+    from launch_ros.actions import Node
 
-    classes = [launch_ros.actions.Node, launch.actions.ExecuteProcess]
-    known = {argument for kind in classes for argument in inspect.signature(kind).parameters}
-    return did_you_mean(name, sorted(known - {"kwargs", "cmd"}))
+    return did_you_mean(name, {*inspect.signature(Node).parameters, *inspect.signature(ExecuteProcess).parameters})
 
 
 _BY_TEXT: dict[str, str | Callable[[str], str]] = {
     r"name '(\w+)' is not defined": _undefined,
     r"unexpected keyword argument '(\w+)'": _unexpected_keyword,
     r"missing \d+ required keyword-only arguments?: '(\w+)'": r"Write \1='…' in it.",
-    r"Failed to normalize given item of type '<class 'NoneType'>'": (
-        "Launch needs text here, but got None: is a variable or a return value empty?"
-    ),
     r"Failed to normalize given item of type '<class '(\w+)'>'": (
-        r"Launch needs text here, but got a value of type \1: put it in quotes, as in '5.0'."
+        r"Launch needs text here, but got a value of type \1; a number is put in quotes, as in '5.0'."
     ),
-    r"'NoneType' object has no attribute 'get_launch_arguments": (
+    r"object has no attribute 'get_launch_arguments": (
         "generate_launch_description() must end with: return LaunchDescription([…])"
     ),
-    r"'(?:list|tuple)' object has no attribute 'get_launch_arguments": "Wrap the list: return LaunchDescription([…])",
     r"object has no attribute '(?:visit|describe_sub_entities)'": (
         "Only actions such as Node(…) can be in a launch description."
     ),
