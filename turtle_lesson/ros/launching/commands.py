@@ -53,9 +53,7 @@ def program(words: Sequence[str], *, shell: bool = False) -> Program:
     """
     shown = " ".join(words)
     in_shell = PurePath(words[0]).name in SHELLS and len(words) == 3 and words[1] == "-c"
-    commands = [("", list(words))]
-    if shell or in_shell:
-        commands = hooks.commands_of_text(shown if shell else words[2])
+    commands = hooks.commands_of_text(shown if shell else words[2]) if shell or in_shell else [("", list(words))]
     if len(commands) == 1:
         return _simple(commands[0][1], shown)
     mains = [(sign, _main(command)) for sign, command in commands]
@@ -166,17 +164,13 @@ def output_of(text: str) -> str:
 def _read(name: str) -> str:
     try:
         return Path(name).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise SubstitutionFailure(f"cat: {name}: {reason}") from None
+    except (OSError, ValueError) as error:
+        raise SubstitutionFailure(f"cat: {name}: {getattr(error, 'strerror', error)}") from None
 
 
 def _xacro(words: Sequence[str]) -> str:
     """What xacro makes of a robot description. One without macros stays as it is; for others the package xacro is needed."""
-    files = [word for word in words if not word.startswith("-") and ":=" not in word]
-    if len(files) != 1:
-        raise SubstitutionFailure("xacro needs the name of one file")
-    text = _read(files[0])
+    text = "".join(_read(word) for word in words if not word.startswith("-") and ":=" not in word)
     if not re.search(r"<xacro:|\$\{|\$\(", text):
         return text
     try:
@@ -226,10 +220,8 @@ def plan(args: Any, shell: bool) -> tuple[Any, list[str]] | None:
             return partial(_fail, f"{error}"), words
         if not _OF_THE_WORLD.search(line):
             return None
-        said = f"{error}" if not str(error).startswith("ExecuteProcess(") else "it is a program of the operating system"
-        why = f"{line!r} cannot be started by a program here ({getattr(error, 'why', said)})"
-        can = "ros2 commands, Python files, echo and sleep can."
-        raise NotImplementedError(f"{why}: {can} {getattr(error, 'hint', '')}".strip()) from None
+        why = f"{line!r} cannot be started by a program here ({getattr(error, 'why', error)})"
+        raise NotImplementedError(f"{why}: ros2 commands, Python files, echo and sleep can.") from None
     return found.target, found.argv
 
 

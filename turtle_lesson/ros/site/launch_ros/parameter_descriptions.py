@@ -17,13 +17,8 @@ from typing import Any, get_args, get_origin
 
 import yaml
 from launch import LaunchContext
-from launch._entities import (
-    SomeSubstitutionsType,
-    Substitution,
-    explained,
-    normalize_to_list_of_substitutions,
-    text_of,
-)
+from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
+from launch._entities import normalize_to_list_of_substitutions as pieces
 from launch.frontend import Entity, attribute, parse_substitution, tags
 from launch.utilities import perform_text_as
 
@@ -46,8 +41,8 @@ def parameters_in(context: LaunchContext, given: Mapping[Any, Any]) -> Iterator[
         try:
             yield name, value_of(context, value)
         except TypeError as error:
-            hint = f"This is parameter '{name}'. {getattr(error, 'hint', '')}"
-            raise explained(TypeError(str(error)), hint.strip()) from error
+            explained(error, f"This is parameter '{name}'.")
+            raise
 
 
 def value_of(context: LaunchContext, value: Any) -> Any:
@@ -56,8 +51,11 @@ def value_of(context: LaunchContext, value: Any) -> Any:
         return value.evaluate(context)
     if isinstance(value, PLAIN):
         return value
-    many = isinstance(value, Sequence) and not isinstance(value, bytes)
-    if isinstance(value, Substitution) or (many and any(isinstance(item, Substitution) for item in value)):
+    if isinstance(value, Substitution):
+        value = [value]
+    if not isinstance(value, Sequence) or isinstance(value, bytes):
+        raise TypeError(f"Unexpected type for parameter value {value!r}; it can be a bool, int, float, text, or a list")
+    if any(isinstance(item, Substitution) for item in value):
         text = text_of(context, value)
         found = safe_load(text) if text else ""  # an empty text stays one (launch_ros, pull request 300)
         try:
@@ -66,11 +64,9 @@ def value_of(context: LaunchContext, value: Any) -> Any:
             raise explained(
                 error, f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text."
             ) from None
-    if many and any(isinstance(item, Sequence) and not isinstance(item, str) for item in value):
-        return uniform([safe_load(text_of(context, item)) for item in value])
-    if many:
-        return uniform(list(value))
-    raise TypeError(f"Unexpected type for parameter value {value!r}; it can be a bool, int, float, text, or a list")
+    if any(isinstance(item, list | tuple) for item in value):
+        value = [safe_load(text_of(context, item)) for item in value]
+    return uniform(list(value))
 
 
 def uniform(items: list[Any]) -> list[Any]:
@@ -126,9 +122,7 @@ class ParameterFile:
         *,
         allow_substs: bool | SomeSubstitutionsType = False,
     ) -> None:
-        if isinstance(param_file, PathLike):
-            param_file = fspath(param_file)
-        self.param_file = normalize_to_list_of_substitutions(param_file)
+        self.param_file = pieces(fspath(param_file) if isinstance(param_file, PathLike) else param_file)
         self.allow_substs = allow_substs
 
     def evaluate(self, context: LaunchContext) -> Path:
