@@ -8,15 +8,12 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..ament import index
 from ..ament.package import PackageNotFoundError
 from ..idl.names import did_you_mean
+from ..runtime.world import World
 from ..sim.errors import is_ours, learners_frames, shorten, shown_path
-
-if TYPE_CHECKING:
-    from ..runtime.world import World
 
 Place = tuple[str, int]
 

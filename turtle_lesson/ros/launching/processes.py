@@ -9,20 +9,22 @@ from contextlib import suppress
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
+import rclpy
 from launch import Event
+from launch.actions import ExecuteProcess
 from launch.events.process import ProcessExited, ProcessIO, ProcessStarted
 from launch.utilities import perform_substitutions
+from lifecycle_msgs.msg import TransitionEvent
+from lifecycle_msgs.srv import ChangeState
+from rclpy.client import Client
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 
 from ..ament.package import PythonProgram
+from ..runtime.world import World
+from ..sim.process import Process
 
 if TYPE_CHECKING:
-    from launch.actions import ExecuteProcess
-    from lifecycle_msgs.msg import TransitionEvent
-    from rclpy.client import Client
-    from rclpy.node import Node
-
-    from ..runtime.world import World
-    from ..sim.process import Process
     from .service import LaunchService
 
 TERMINATED = -15
@@ -194,9 +196,6 @@ class RosHelper:
         self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
 
     def _main(self) -> None:
-        import rclpy
-        from rclpy.executors import ExternalShutdownException
-
         rclpy.init(args=[])
         node = rclpy.create_node(f"launch_ros_{self._process.pid}", start_parameter_services=False)
 
@@ -222,8 +221,6 @@ class RosHelper:
 
     def watch(self, node_name: str, heard: Callable[[TransitionEvent], None]) -> None:
         """Have a function called with each TransitionEvent of a node."""
-        from lifecycle_msgs.msg import TransitionEvent
-
         topic = f"{node_name}/transition_event"
         self._order(
             lambda node: node.create_subscription(
@@ -233,7 +230,6 @@ class RosHelper:
 
     def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
         """Ask a node for a transition, as soon as it has the service; the function is called with the answer."""
-        from lifecycle_msgs.srv import ChangeState
 
         def call(node: Node) -> None:
             if node_name not in self._clients:

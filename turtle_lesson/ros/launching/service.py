@@ -13,12 +13,12 @@ from contextlib import contextmanager, redirect_stdout
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from launch import Action, Event, LaunchContext, LaunchDescription, LaunchDescriptionEntity, LaunchDescriptionSource
 from launch._context import as_entities
 from launch._entities import described
-from launch.actions import DeclareLaunchArgument, EmitEvent, IncludeLaunchDescription
+from launch.actions import DeclareLaunchArgument, EmitEvent, ExecuteProcess, IncludeLaunchDescription
 from launch.events import IncludeLaunchDescription as Included
 from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
@@ -26,17 +26,12 @@ from launch.launch_description_sources import AnyLaunchDescriptionSource
 from ..ament.index import LaunchedPackages, seeing
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
-from ..runtime.world import current_world, run_for
+from ..runtime.world import World, current_world, run_for
+from ..sim.process import Process
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
 from .errors import LaunchError, as_launch_error, learners_cause
 from .processes import RosHelper, RunningProcess
-
-if TYPE_CHECKING:
-    from launch.actions import ExecuteProcess
-
-    from ..runtime.world import World
-    from ..sim.process import Process
 
 
 class LaunchService:

@@ -16,12 +16,10 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from io import TextIOBase
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 from .. import hooks
-
-if TYPE_CHECKING:
-    from ..sim.simulation import Simulation
+from ..sim.simulation import Simulation
 
 OPENED = "TURTLE_LESSON_OPENED"
 """The environment variable in which `turtle-lesson open` names the folder that it opens JupyterLab on."""

@@ -22,7 +22,7 @@ from ..sim.errors import SimulationError, is_library
 from ..sim.process import Output, Process
 from ..sim.run_blocking import drive
 from ..sim.simulation import NANOSECONDS, Simulation
-from ..sim.strand import running_strand
+from ..sim.strand import Strand, running_strand
 from ..stdlib import ownership, patches
 from ..stdlib.clocks import real_monotonic, real_sleep
 from ..stdlib.process_state import encoded
@@ -31,7 +31,6 @@ from ..stdlib.program import run_program
 if TYPE_CHECKING:
     from ...session.live import Player
     from ..ament.index import PackageIndex
-    from ..sim.strand import Strand
 
 FIRST_PID = 1001
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, get_args, get_origin
+from typing import Any, get_args, get_origin
 
 from turtle_lesson.ros.runtime.bounded_yaml import safe_load
 
+from ._context import LaunchContext
 from ._entities import Substitution, normalize_to_list_of_substitutions, perform_substitutions, text_of
-
-if TYPE_CHECKING:
-    from ._context import LaunchContext
 
 __all__ = ["normalize_to_list_of_substitutions", "perform_substitutions"]
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
 from launch import LaunchContext
 from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
@@ -11,10 +9,7 @@ from launch.frontend import expose_substitution
 from launch.substitutions import SubstitutionFailure
 
 from turtle_lesson.ros.ament.index import current_packages
-from turtle_lesson.ros.ament.package import ExecutableNotFoundError
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.ament.package import Target
+from turtle_lesson.ros.ament.package import ExecutableNotFoundError, Target
 
 __all__ = ["ExecutableInPackage", "FindPackagePrefix", "FindPackageShare"]
 

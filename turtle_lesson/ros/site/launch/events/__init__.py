@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from .._context import Event
-
-if TYPE_CHECKING:
-    from .._entities import Action, LaunchDescription
+from .._entities import Action, LaunchDescription
 
 __all__ = ["ExecutionComplete", "IncludeLaunchDescription", "Shutdown", "matches_action"]
 
