@@ -1,7 +1,7 @@
-"""Fields of messages: which ones a type has, of which kind, and which constants; and a message as a form has it.
+"""Fields of messages: which ones a type has, and of which kind; and a message as a form has it.
 
-Everything is read from what the generated Python classes of any ROS 2 offer (`get_fields_and_field_types`, constants as
-attributes in capitals), so it works alike with the simulated ones and with the real ones.
+Everything is read from what the generated Python classes of any ROS 2 offer (`get_fields_and_field_types`), so it works
+alike with the simulated ones and with the real ones.
 """
 
 from __future__ import annotations
@@ -76,18 +76,6 @@ def kinds_of(message_class: Any) -> dict[str, Kind]:
     return {} if list(kinds) == ["structure_needs_at_least_one_member"] else kinds
 
 
-def constants_of(message_class: Any) -> dict[str, Any]:
-    """The constants that a message class defines, in the order of its file; of type byte as numbers."""
-    found: dict[str, Any] = {}
-    for name, value in vars(message_class).items():
-        if name.isupper() and name[0] != "_" and not name.endswith("__DEFAULT"):
-            if isinstance(value, bytes) and len(value) == 1:
-                value = value[0]
-            if isinstance(value, (bool, int, float, str)):
-                found[name] = value
-    return found
-
-
 def read_number(text: str, base: str) -> float:
     """The number that was typed. Raises ValueError, in words, for what is none or does not fit in this type."""
     typed, is_float = text.strip().replace("−", "-"), base in FLOATS
@@ -153,11 +141,8 @@ TIME = "builtin_interfaces/Time"
 class Part:
     """A part of a form: a single field, the fields of a message, or the rows of an array."""
 
-    def __init__(
-        self, name: str, kind: Kind, value: Any, constants: dict[str, Any] | None = None, whole: Part | None = None
-    ) -> None:
+    def __init__(self, name: str, kind: Kind, value: Any, whole: Part | None = None) -> None:
         self.name, self.kind, self.whole = name, kind, whole
-        self.constants = constants or {}
         self.parts: list[Part] = []
         self.default: Any = {}
         """The first value, as YAML has it; of a message, none of its fields."""
@@ -205,14 +190,10 @@ class Single(Part):
     def _fill(self, value: Any) -> None:
         self.default = plain(value, self.kind)
         self.text: str | bool = self.default if isinstance(self.default, (bool, str)) else repr(self.default)
-        alike = () if isinstance(self.default, bool) else (type(self.default),)
-        self.constants = {name: each for name, each in self.constants.items() if type(each) in alike}
 
     def value(self) -> Any:
         if isinstance(self.text, bool):
             return self.text
-        if self.text.strip() in self.constants:
-            return self.constants[self.text.strip()]
         if self.kind.base in FLOATS | WHOLE:
             return read_number(self.text, self.kind.base)
         if self.kind.longest and len(self.text) > self.kind.longest:
@@ -239,8 +220,7 @@ class Single(Part):
         if base in WHOLE:
             hint = "from {} to {}".format(*bounds(base)).replace("-", "−")
         control = {"boolean": "checkbox", "string": "text", "wstring": "text"}.get(base, "number")
-        options = [[name, str(value)] for name, value in self.constants.items()]
-        return {**super().state(), "control": control, "help": hint, "options": options}
+        return {**super().state(), "control": control, "help": hint}
 
 
 class Group(Part):
@@ -250,13 +230,7 @@ class Group(Part):
         self.message_class = type(value)
         self.is_time = self.kind.base == TIME
         self.now = self.is_time and self.path.endswith("header/stamp")
-        constants, kinds = constants_of(self.message_class), kinds_of(value)
-        prefixes = {field: f"{field.upper()}_" for field in kinds}
-        # a type does not say which constants belong to which field: their names may
-        anyone = {name: each for name, each in constants.items() if not name.startswith(tuple(prefixes.values()))}
-        for field, kind in kinds.items():
-            own = {name: each for name, each in constants.items() if name.startswith(prefixes[field])}
-            self.parts.append(make_part(field, kind, getattr(value, field), own or anyone, self))
+        self.parts = [make_part(name, kind, getattr(value, name), self) for name, kind in kinds_of(value).items()]
 
     def build(self, now: Callable[[], Any]) -> Any:
         if self.now:
@@ -288,7 +262,7 @@ class Rows(Part):
         self.default = self.value()
 
     def _append(self, value: Any) -> None:
-        self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self.constants, self))
+        self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self))
 
     @property
     def why_full(self) -> str:
@@ -326,10 +300,10 @@ class Rows(Part):
         return {**super().state(), **own, "parts": [row.state() for row in self.parts]}
 
 
-def make_part(name: str, kind: Kind, value: Any, constants: dict[str, Any], whole: Part) -> Part:
+def make_part(name: str, kind: Kind, value: Any, whole: Part) -> Part:
     """The part of a form for a field of this kind, with this value in it."""
     made = Rows if kind.array else Group if kind.is_message else Single
-    return made(name, kind, value, constants, whole)
+    return made(name, kind, value, whole)
 
 
 def form_of(message_class: Any) -> Group:

@@ -48,7 +48,7 @@ const removal = (part, row, made) =>
     "data-path": `${part.path} remove ${row}`,
   }); // prettier-ignore
 
-/** One field with its label, its help, the constants it may be set to by name, and a place for what is wrong. */
+/** One field with its label, its help, and a place for what is wrong. */
 function formField(part, made) {
   const [id, help] = [freshId(), freshId()];
   const error = element("span", { class: "tl-bad", id: `${help}e` });
@@ -62,17 +62,6 @@ function formField(part, made) {
   made.inputs[part.path] = input;
   made.errors[part.path] = error;
   const label = element("label", { for: id }, ...breakable(part.name), " ", element("small", {}, part.type));
-  const choice = part.options.length ? constants(part, input, send) : null;
   const side = element("span", { class: "tl-side" }, element("small", { id: help }, part.help), error);
-  return element("div", { class: "tl-field" }, label, element("span", { class: "tl-entry" }, input, choice), side);
-}
-
-function constants(part, input, send) {
-  const select = element("select", { "aria-label": `Constants for ${part.name}` }, element("option", { value: "" }, "by name …"));
-  for (const [name, value] of part.options) select.append(element("option", { value: name }, `${name} = ${value}`));
-  select.addEventListener("change", () => {
-    if (select.value) (input.value = select.value), send();
-    select.value = "";
-  });
-  return select;
+  return element("div", { class: "tl-field" }, label, element("span", { class: "tl-entry" }, input), side);
 }
