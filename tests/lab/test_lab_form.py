@@ -179,16 +179,6 @@ def test_fixed_and_bounded_arrays() -> None:
     assert Single("name", Kind("string", longest=3), "").state()["help"] == "at most 3 characters"
 
 
-def test_a_time_can_be_the_moment_of_sending_or_not() -> None:
-    whole = group("sensor_msgs/msg/LaserScan")
-    stamp = find_part(whole, "header/stamp")
-    assert isinstance(stamp, Group) and stamp.now
-    stamp.now = False
-    put(whole, "header/stamp/sec", "3")
-    assert message(whole).header.stamp.sec == 3
-    assert whole.changed() == {"header": {"stamp": {"sec": 3}}}
-
-
 # -- the line for the terminal ---------------------------------------------------------------------------------------
 
 
@@ -326,7 +316,6 @@ def test_unknown_names(lesson: Lesson, name: Any, said: str) -> None:
         {"do": "edit", "path": "linear/x", "text": 1},
         {"do": "add", "path": "linear"},
         {"do": "remove", "path": "linear/x", "row": 0},
-        {"do": "now", "path": "linear", "on": True},
         {"do": "options", "rate": "fast"},
         {"do": "options", "rate": 0},
         {"do": "_publish", "message": None},

@@ -80,14 +80,6 @@ class Form(LiveWidget):
         self._part(path, Rows, "an array").remove(row)
         self._bring_up_to_date()
 
-    def do_now(self, path: str, on: bool) -> None:
-        """Fill a time with the moment of sending, or not."""
-        part = self._part(path, Group, "a time")
-        if not part.is_time:
-            raise ValueError(f"{path} is not a time.")
-        part.now = bool(on)
-        self._bring_up_to_date()
-
     def do_reset(self) -> None:
         """Put the defaults into all fields."""
         self._whole = form_of(self._whole.message_class)
@@ -189,7 +181,7 @@ class Form(LiveWidget):
         self.values = {single.path: single.text for single in singles}
         self.errors = {single.path: words for single in singles if (words := _error_of(single))}
         self.tree = self._whole.state()["parts"]
-        has_now = "'now': True" in repr(self.tree)
+        has_now = "'control': 'now'" in repr(self.tree)
         self.remark = "The stamp is left out: a line for the terminal cannot know it." if has_now else ""
         if self.errors:
             self.line = ""

@@ -224,12 +224,11 @@ class Single(Part):
 
 
 class Group(Part):
-    """The fields of one message. If `is_time`, it is a time that can be filled with the moment of sending."""
+    """The fields of one message. A header's stamp is filled with the moment of sending: `now`."""
 
     def _fill(self, value: Any) -> None:
         self.message_class = type(value)
-        self.is_time = self.kind.base == TIME
-        self.now = self.is_time and self.path.endswith("header/stamp")
+        self.now = self.kind.base == TIME and self.path.endswith("header/stamp")
         self.parts = [make_part(name, kind, getattr(value, name), self) for name, kind in kinds_of(value).items()]
 
     def build(self, now: Callable[[], Any]) -> Any:
@@ -249,8 +248,8 @@ class Group(Part):
         return iter(()) if self.now else super().singles()
 
     def state(self) -> dict[str, Any]:
-        own = {"control": "time" if self.is_time else "group", "now": self.now}
-        return {**super().state(), **own, "parts": [part.state() for part in self.parts]}
+        parts = [] if self.now else [part.state() for part in self.parts]
+        return {**super().state(), "control": "now" if self.now else "group", "parts": parts}
 
 
 class Rows(Part):

@@ -8,7 +8,7 @@ function formFields(tree, order) {
 
 function formPart(part, made, depth) {
   if (part.control === "group") return formGroup(part, made, depth);
-  if (part.control === "time") return formTime(part, made, depth);
+  if (part.control === "now") return folded(part, depth, "the moment of sending");
   if (part.control === "rows") return formRows(part, made, depth);
   return formField(part, made);
 }
@@ -22,16 +22,8 @@ function folded(part, depth, ...content) {
 
 const formGroup = (part, made, depth) => folded(part, depth, ...part.parts.map((each) => formPart(each, made, depth + 1)));
 
-/** A time: filled in at the moment of sending, or by hand. */
-function formTime(part, made, depth) {
-  const now = element("input", { type: "checkbox", checked: part.now, "data-path": `${part.path} now` });
-  now.addEventListener("change", () => made.order("now", { path: part.path, on: now.checked }));
-  const label = element("label", { class: "tl-now" }, now, "now: the moment of sending");
-  return folded(part, depth, label, ...(part.now ? [] : part.parts.map((each) => formPart(each, made, depth + 1))));
-}
-
 function formRows(part, made, depth) {
-  const plain = part.parts.every((each) => !["group", "time", "rows"].includes(each.control));
+  const plain = part.parts.every((each) => !["group", "now", "rows"].includes(each.control));
   const rows = part.parts.map((each, row) =>
     element("div", { class: "tl-element" }, formPart(each, made, depth + 1), part.fixed ? null : removal(part, row, made)),
   );
