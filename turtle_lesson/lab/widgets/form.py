@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import shlex
-from typing import Any, TypeVar
+from functools import reduce
+from typing import Any
 
 import traitlets
 from rclpy.node import Node
 from rclpy.timer import Timer
 
 from ...ros.idl.names import is_hidden
+from ..recorder import find_class
 from ..words import count, listed, suggestion, within
 from .backend import LazyClient, LazyPublisher, Link, let_time_go_on
 from .live_widget import LiveWidget
-from .message_fields import Group, Part, Rows, Single, find_class, find_part, form_of
-
-SomePart = TypeVar("SomePart", bound=Part)
+from .message_fields import fields_of
 
 
 class Form(LiveWidget):
@@ -32,8 +32,8 @@ class Form(LiveWidget):
     kind = traitlets.Unicode().tag(sync=True)
     """"topic" or "service"."""
     type_name = traitlets.Unicode().tag(sync=True)
-    tree = traitlets.List(traitlets.Dict()).tag(sync=True)
-    """The fields: what there is to draw."""
+    fields = traitlets.List(traitlets.Dict()).tag(sync=True)
+    """What there is to draw; `Field` says what there is of each."""
     values = traitlets.Dict().tag(sync=True)
     """What stands in each field, by its path."""
     errors = traitlets.Dict().tag(sync=True)
@@ -56,33 +56,30 @@ class Form(LiveWidget):
     def __init__(self, backend: Link, name: str) -> None:
         full, kind, type_name = _look_up(backend.node, name)
         message_class = find_class(type_name)
-        self._whole = form_of(message_class if kind == "topic" else message_class.Request)
+        self._class = message_class if kind == "topic" else message_class.Request
+        self._fields = fields_of(self._class())
         self._publisher = LazyPublisher(backend, full, message_class, type_name)
         self._client = LazyClient(backend, message_class, full)
         self._timer: Timer | None = None
         self._last: Any = None
-        super().__init__(backend, name=full, kind=kind, type_name=type_name)
+        fields = [field.state() for field in self._fields]
+        super().__init__(backend, name=full, kind=kind, type_name=type_name, fields=fields)
+        if any(field.control == "now" for field in self._fields):
+            self.remark = "The stamp is left out: a line for the terminal cannot know it."
         self._bring_up_to_date()
         self.tick()
 
-    def do_edit(self, path: str, text: Any) -> None:
+    def do_edit(self, path: str, text: str | bool) -> None:
         """Put a text (true or false, for a checkbox) into a field."""
-        self._part(path, Single, "a single field").set(text)
-        self._bring_up_to_date()
-
-    def do_add(self, path: str) -> None:
-        """Add a row to an array."""
-        self._part(path, Rows, "an array").add()
-        self._bring_up_to_date()
-
-    def do_remove(self, path: str, row: int) -> None:
-        """Take a row of an array away."""
-        self._part(path, Rows, "an array").remove(row)
+        field = next((field for field in self._fields if field.path == path and field.is_single), None)
+        if field is None or type(text) is not type(field.text):
+            raise ValueError(f"This form has no field {path!r} that takes {text!r}.")
+        field.text = text
         self._bring_up_to_date()
 
     def do_reset(self) -> None:
         """Put the defaults into all fields."""
-        self._whole = form_of(self._whole.message_class)
+        self._fields = fields_of(self._class())
         self._bring_up_to_date()
 
     def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:
@@ -95,21 +92,15 @@ class Form(LiveWidget):
             self.timeout = within("waiting time", timeout, 0.1, 3600)
         self._bring_up_to_date()
 
-    def _part(self, path: str, kind: type[SomePart], what: str) -> SomePart:
-        part = find_part(self._whole, path)
-        if not isinstance(part, kind):
-            raise ValueError(f"{path} is not {what}.")
-        return part
-
     def do_publish(self) -> None:
         """Publish once."""
-        self._publish(self._sound().build(self._time))
+        self._publish(self._message())
         self.words = f"Published on {self.name}."
         let_time_go_on(self.backend)
 
     def do_repeat(self) -> None:
         """Publish at the rate, until `stop`. What is edited meanwhile is published as soon as it is sound."""
-        self._publish(self._sound().build(self._time))
+        self._publish(self._message())
         self._publish_again_and_again()
         let_time_go_on(self.backend)
 
@@ -125,7 +116,7 @@ class Form(LiveWidget):
 
     def do_call(self) -> None:
         """Call the service."""
-        request = self._sound().build(self._time)
+        request = self._message()
         self.answer = ""
         self.words = f"Asked {self.name}; waiting for its answer."
         self._client.ask(request, self.timeout, self._answered)
@@ -139,7 +130,7 @@ class Form(LiveWidget):
         self._bring_up_to_date()
 
     def _repeat(self) -> None:
-        self._publish(self._last if self.errors else self._whole.build(self._time))
+        self._publish(self._last if self.errors else self._message())
 
     def _publish(self, message: Any) -> None:
         self._last = message
@@ -150,13 +141,17 @@ class Form(LiveWidget):
         self.answer, self.words = answer, words
         self.running = False
 
-    def _sound(self) -> Group:
+    def _message(self) -> Any:
+        """What stands in the fields. Raises ValueError while a field is wrong."""
         if self.errors:
             raise ValueError(f"Not sent: {'; '.join(f'{path}: {words}' for path, words in self.errors.items())}.")
-        return self._whole
-
-    def _time(self) -> Any:
-        return self.backend.node.get_clock().now().to_msg()
+        message = self._class()
+        for field in self._fields:
+            if field.control == "now":
+                field.put_into(message, self.backend.node.get_clock().now().to_msg())
+            elif field.path in self._changed:
+                field.put_into(message, self._changed[field.path])
+        return message
 
     def tick(self) -> None:
         self._client.look()
@@ -177,19 +172,24 @@ class Form(LiveWidget):
         self.running = False
 
     def _bring_up_to_date(self) -> None:
-        singles = list(self._whole.singles())
-        self.values = {single.path: single.text for single in singles}
-        self.errors = {single.path: words for single in singles if (words := _error_of(single))}
-        self.tree = self._whole.state()["parts"]
-        has_now = "'control': 'now'" in repr(self.tree)
-        self.remark = "The stamp is left out: a line for the terminal cannot know it." if has_now else ""
-        if self.errors:
+        """Read what stands in the fields, and try whether a message takes it."""
+        self._changed, errors, trial = dict[str, Any](), dict[str, str](), self._class()
+        singles = [field for field in self._fields if field.is_single]
+        for field in singles:
+            try:
+                if (value := field.value()) != field.default:
+                    field.put_into(trial, value)
+                    self._changed[field.path] = value
+            except ValueError as error:
+                errors[field.path] = str(error)
+        self.values, self.errors = {field.path: field.text for field in singles}, errors
+        if errors:
             self.line = ""
-            return
-        values = self._whole.value()
-        self.line = f"ros2 service call {self.name} {self.type_name} {_yaml(values)}"
-        if self.kind == "topic":
-            self.line = publish_line(self.name, self.type_name, values, None if self._timer is None else self.rate)
+        elif self.kind == "topic":
+            rate = None if self._timer is None else self.rate
+            self.line = publish_line(self.name, self.type_name, self._changed, rate)
+        else:
+            self.line = f"ros2 service call {self.name} {self.type_name} {_yaml(self._changed)}"
 
     def _text(self) -> str:
         what = "messages on" if self.kind == "topic" else "requests to"
@@ -211,24 +211,20 @@ def _look_up(node: Node, name: str) -> tuple[str, str, str]:
     raise ValueError(f'there is no topic or service called "{name}" now. {suggestion(name, sorted(names))}')
 
 
-def _error_of(single: Single) -> str:
-    try:
-        single.value()
-    except ValueError as error:
-        return str(error)
-    return ""
-
-
 def publish_line(topic: str, type_name: str, values: dict[str, Any], rate: float | None) -> str:
-    """The `ros2 topic pub` that publishes these values: once, or so often a second."""
+    """The `ros2 topic pub` that publishes these values, each by its path: once, or so often a second."""
     how = "--once" if rate is None else f"--rate {rate:g}"
     return f"ros2 topic pub {how} {topic} {type_name} {_yaml(values)}"
 
 
-def _yaml(values: dict[str, Any]) -> str:
+def _yaml(by_path: dict[str, Any]) -> str:
     """Values as one word of a shell: in double quotes as in ROS's own examples, unless a sign there has a meaning."""
     import yaml
 
+    values: dict[str, Any] = {}
+    for path, value in by_path.items():
+        *groups, name = path.split("/")
+        reduce(lambda inner, group: inner.setdefault(group, {}), groups, values)[name] = value
     for allow_unicode in (True, False):  # some rare signs, such as U+0085, come back as blanks if they are not escaped
         options: dict[str, Any] = {"default_flow_style": True, "width": float("inf"), "sort_keys": False}
         text = yaml.safe_dump(values, allow_unicode=allow_unicode, **options).strip()

@@ -15,13 +15,13 @@ from rclpy.timer import Timer
 from ...ros.idl.names import is_hidden, nearest
 from .. import drawing
 from ..drawing import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILLION, Picture
-from ..recorder import Channel
+from ..recorder import Channel, find_class
 from ..recording import NANOSECONDS, Table
 from ..status_and_scan import label_beside, spread
 from ..words import count, enumerated, number, suggestion, within
 from .backend import Link
 from .live_widget import LiveWidget, pack
-from .message_fields import Kind, find_class, kinds_of
+from .message_fields import Kind, kinds_of
 
 KEPT = 20_000
 """Numbers that are kept of a curve: more than five minutes of a turtle's pose."""

@@ -6,38 +6,38 @@ alike with the simulated ones and with the real ones.
 
 from __future__ import annotations
 
+import json
 import math
 import re
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 import numpy as np
+from rosidl_runtime_py import message_to_ordereddict, set_message_fields
 
 from ...ros.idl.names import bounds
-from ..recorder import find_class
-from ..words import same, shortened
+from ...ros.runtime.bounded_yaml import safe_load
+from ..words import shortened
 
 FLOATS = {"float", "double"}
 WHOLE = {"octet", "char"} | {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 NAMES = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
 """How a .msg file calls what a Python class calls by its IDL name."""
 
-_KIND = re.compile(r"(sequence<)?([\w/]+)(?:<(\d+)>)?(?:, (\d+))?>?(?:\[(\d+)\])?")
-"""An array of any length, the base, most characters, most elements, just so many elements."""
+_KIND = re.compile(r"(sequence<)?([\w/]+)(?:<\d+>)?(?:, (\d+))?>?(?:\[(\d+)\])?")
+"""An array of any length, the base, most elements, just so many elements; how long a text may be is passed over."""
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """The kind of a field: of what, how many, how long."""
+    """The kind of a field: of what, and how many."""
 
     base: str
     """"double", "int32", "boolean", "octet", "string", …, or a message such as "geometry_msgs/Vector3"."""
     array: str = ""
     """"", "fixed" (exactly `size`), "bounded" (at most `size`) or "unbounded"."""
     size: int = 0
-    longest: int = 0
-    """Most characters of a bounded string; 0 for any number."""
 
     @property
     def is_message(self) -> bool:
@@ -52,28 +52,26 @@ class Kind:
     @property
     def element(self) -> Kind:
         """The kind of one element."""
-        return Kind(self.base, longest=self.longest)
+        return Kind(self.base)
 
     def __str__(self) -> str:
         """As a .msg file writes it: "float64[<=3]"."""
         ends = {"": "", "fixed": f"[{self.size}]", "bounded": f"[<={self.size}]", "unbounded": "[]"}
-        return NAMES.get(self.base, self.base) + (f"<={self.longest}" if self.longest else "") + ends[self.array]
+        return NAMES.get(self.base, self.base) + ends[self.array]
 
 
 def read_kind(text: str) -> Kind:
     """The kind that `get_fields_and_field_types` calls `text`: "sequence<double, 3>", "uint8[4]", "string<10>", …"""
     found = _KIND.fullmatch(text)
     assert found is not None, text
-    sequence, base, longest, most, size = found.groups()
+    sequence, base, most, size = found.groups()
     array = "fixed" if size else "bounded" if most else "unbounded" if sequence else ""
-    return Kind(base, array, int(size or most or 0), int(longest or 0))
+    return Kind(base, array, int(size or most or 0))
 
 
 def kinds_of(message_class: Any) -> dict[str, Kind]:
     """The fields of a message class, in the order of its file."""
-    kinds = {name: read_kind(text) for name, text in message_class.get_fields_and_field_types().items()}
-    # C++ allows no empty struct, so a message without fields has one that no file names
-    return {} if list(kinds) == ["structure_needs_at_least_one_member"] else kinds
+    return {name: read_kind(text) for name, text in message_class.get_fields_and_field_types().items()}
 
 
 def read_number(text: str, base: str) -> float:
@@ -83,16 +81,11 @@ def read_number(text: str, base: str) -> float:
     try:
         value = float(typed) if is_float else int(typed)
     except ValueError:
-        if not typed:
-            raise ValueError(f"{wanted} is missing") from None
         why = ": write a point, not a comma" if "," in typed else ""
         raise ValueError(f'{wanted} is wanted, got "{shortened(typed, 30)}"{why}') from None
-    if base == "float" and math.isfinite(value) and abs(value) > bounds("float32")[1]:
-        raise ValueError("a float32 goes up to 3.4e38")
-    if not is_float:
-        low, high = bounds(base)
-        if not low <= value <= high:
-            raise ValueError(f"a whole number from {low} to {high} fits here, not {value}".replace("-", "−"))
+    low, high = bounds(NAMES.get(base, base))
+    if math.isfinite(value) and not low <= value <= high:
+        raise ValueError(f"a number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
 
 
@@ -130,191 +123,75 @@ def _shown(value: Any, kind: Kind) -> Any:
     return plain(value, kind)
 
 
-# -- a form: a tree of groups, rows and single fields, each with the text that stands in it -------------------------------
-
-MOST_ROWS = 64
-"""More rows than this are no work for a form but for a program."""
+# -- a form: its fields in the order of the type, each with the text that stands in it ------------------------------------
 
 TIME = "builtin_interfaces/Time"
 
 
-class Part:
-    """A part of a form: a single field, the fields of a message, or the rows of an array."""
+class Field:
+    """One field of a form. `text` is what stands in it: true or false in a checkbox, YAML for a list, nothing for a group."""
 
-    def __init__(self, name: str, kind: Kind, value: Any, whole: Part | None = None) -> None:
-        self.name, self.kind, self.whole = name, kind, whole
-        self.parts: list[Part] = []
-        self.default: Any = {}
-        """The first value, as YAML has it; of a message, none of its fields."""
-        self._fill(value)
-
-    def _fill(self, value: Any) -> None:
-        """Take this value as the default."""
-        raise NotImplementedError
+    def __init__(self, path: str, kind: Kind, value: Any) -> None:
+        self.path, self.kind = path, kind
+        """Where it is, such as "linear/x"."""
+        self.control = {"boolean": "checkbox", "string": "text", "wstring": "text"}.get(kind.base, "number")
+        """What the browser draws; a header's stamp is "now", the moment of sending."""
+        self.text: str | bool = value if isinstance(value, (bool, str)) else repr(value)
+        if kind.array:
+            self.control, self.text = "text", json.dumps(value)
+        elif kind.is_message:
+            self.control = "now" if kind.base == TIME and path.endswith("header/stamp") else "group"
+        self.default = self.value() if self.is_single else None
 
     @property
-    def path(self) -> str:
-        """Where it is, such as "linear/x" or "points/0/y"; "" for the whole form."""
-        above = self.whole.path if self.whole is not None else ""
-        return f"{above}/{self.name}" if above else self.name
-
-    def singles(self) -> Iterator[Single]:
-        """All single fields in here."""
-        for part in self.parts:
-            yield from part.singles()
-
-    def build(self, now: Callable[[], Any]) -> Any:
-        """The value, as the message's field wants it; `now` gives the time of sending.
-
-        Raises ValueError, in words, for what a field cannot be.
-        """
-        raise NotImplementedError
+    def is_single(self) -> bool:
+        """Whether something can be put into it."""
+        return self.control not in ("group", "now")
 
     def value(self) -> Any:
-        """The value, as YAML has it: of a message, the fields that are not the default. Raises ValueError as `build` does."""
-        raise NotImplementedError
-
-    def changed(self) -> Any:
-        """The value as YAML has it, as far as it is not the default, or None."""
-        value = self.value()
-        return None if same(value, self.default) else value
-
-    def state(self) -> dict[str, Any]:
-        """What the browser needs to draw it."""
-        return {"path": self.path, "name": self.name, "type": str(self.kind)}
-
-
-class Single(Part):
-    """One value: a number, true or false, or a text. `text` is what stands in the field."""
-
-    def _fill(self, value: Any) -> None:
-        self.default = plain(value, self.kind)
-        self.text: str | bool = self.default if isinstance(self.default, (bool, str)) else repr(self.default)
-
-    def value(self) -> Any:
+        """The value as YAML has it. Raises ValueError, in words, for what it cannot be."""
         if isinstance(self.text, bool):
             return self.text
-        if self.kind.base in FLOATS | WHOLE:
-            return read_number(self.text, self.kind.base)
-        if self.kind.longest and len(self.text) > self.kind.longest:
-            raise ValueError(f"at most {self.kind.longest} characters fit here, these are {len(self.text)}")
-        return self.text
+        if self.kind.array:
+            return _read_list(self.text)
+        return read_number(self.text, self.kind.base) if self.kind.base in FLOATS | WHOLE else self.text
 
-    def build(self, now: Callable[[], Any]) -> Any:
-        value = self.value()
-        return bytes([value]) if self.kind.base == "octet" else value
+    def put_into(self, message: Any, value: Any) -> None:
+        """Set the field of a message as `ros2 topic pub` does. Raises ValueError, in words, for what it cannot be."""
+        *groups, name = self.path.split("/")
+        if self.kind == Kind("octet"):
+            value = bytes([value])
+        try:
+            set_message_fields(reduce(getattr, groups, message), {name: value})
+        except (AssertionError, AttributeError, OverflowError, TypeError) as error:
+            raise ValueError(f"{error}") from None
 
-    def set(self, text: Any) -> None:
-        """Put a text into the field; true or false into a checkbox. Raises ValueError for anything else."""
-        wanted = bool if isinstance(self.text, bool) else str
-        if not isinstance(text, wanted):
-            raise ValueError(f"{self.path} takes {'true or false' if wanted is bool else 'a text'}, got {text!r}.")
-        self.text = text
-
-    def singles(self) -> Iterator[Single]:
-        yield self
-
-    def state(self) -> dict[str, Any]:
-        base = self.kind.base
-        hint = f"at most {self.kind.longest} characters" if self.kind.longest else ""
-        if base in WHOLE:
-            hint = "from {} to {}".format(*bounds(base)).replace("-", "−")
-        control = {"boolean": "checkbox", "string": "text", "wstring": "text"}.get(base, "number")
-        return {**super().state(), "control": control, "help": hint}
+    def state(self) -> dict[str, str]:
+        """What the browser needs to draw it."""
+        hint = "a list in YAML" if self.kind.array else ""
+        if self.kind.base in WHOLE and not self.kind.array:
+            hint = "from {} to {}".format(*bounds(self.kind.base)).replace("-", "−")
+        return {"path": self.path, "type": str(self.kind), "control": self.control, "help": hint}
 
 
-class Group(Part):
-    """The fields of one message. A header's stamp is filled with the moment of sending: `now`."""
-
-    def _fill(self, value: Any) -> None:
-        self.message_class = type(value)
-        self.now = self.kind.base == TIME and self.path.endswith("header/stamp")
-        self.parts = [make_part(name, kind, getattr(value, name), self) for name, kind in kinds_of(value).items()]
-
-    def build(self, now: Callable[[], Any]) -> Any:
-        if self.now:
-            return now()
-        message = self.message_class()
-        for part in self.parts:
-            setattr(message, part.name, part.build(now))
-        return message
-
-    def value(self) -> Any:
-        if self.now:  # a time that is filled in later is left out
-            return {}
-        return {part.name: value for part in self.parts if (value := part.changed()) is not None}
-
-    def singles(self) -> Iterator[Single]:
-        return iter(()) if self.now else super().singles()
-
-    def state(self) -> dict[str, Any]:
-        parts = [] if self.now else [part.state() for part in self.parts]
-        return {**super().state(), "control": "now" if self.now else "group", "parts": parts}
+def fields_of(message: Any, above: str = "") -> list[Field]:
+    """The fields of a message for a form, with its values in them; groups come before what is in them."""
+    found: list[Field] = []
+    plain = message_to_ordereddict(message)
+    for name, kind in kinds_of(message).items():
+        value = getattr(message, name)
+        field = Field(f"{above}{name}", kind, value[0] if kind == Kind("octet") else plain[name])
+        found += [field, *(fields_of(value, f"{field.path}/") if field.control == "group" else [])]
+    return found
 
 
-class Rows(Part):
-    """An array: a row for each element."""
+def _read_list(text: str) -> list[Any]:
+    import yaml
 
-    def _fill(self, value: Any) -> None:
-        for each in value:
-            self._append(each)
-        self.default = self.value()
-
-    def _append(self, value: Any) -> None:
-        self.parts.append(make_part(str(len(self.parts)), self.kind.element, value, self))
-
-    @property
-    def why_full(self) -> str:
-        """Why there can be no more rows; "" if there can."""
-        if self.kind.array == "fixed":
-            return f"always {self.kind.size}"
-        if self.kind.array == "bounded" and len(self.parts) >= self.kind.size:
-            return f"at most {self.kind.size}"
-        return f"a form takes at most {MOST_ROWS}; a program, more" if len(self.parts) >= MOST_ROWS else ""
-
-    def add(self) -> None:
-        """Add a row at the end. Raises ValueError if there can be no more."""
-        if self.why_full:
-            raise ValueError(f"{self.path} can have no more rows: {self.why_full}.")
-        base = self.kind.base
-        empty: Any = {"boolean": False, "float": 0.0, "double": 0.0, "string": "", "wstring": ""}.get(base, 0)
-        self._append(find_class(base)() if self.kind.is_message else empty)
-
-    def remove(self, number: int) -> None:
-        """Take a row away; those below move up."""
-        if self.kind.array == "fixed" or not isinstance(number, int) or not 0 <= number < len(self.parts):
-            raise ValueError(f"{self.path} has no row {number!r} to remove.")
-        del self.parts[number]
-        for at, row in enumerate(self.parts):
-            row.name = str(at)
-
-    def build(self, now: Callable[[], Any]) -> list[Any]:
-        return [row.build(now) for row in self.parts]
-
-    def value(self) -> Any:
-        return [row.value() for row in self.parts]
-
-    def state(self) -> dict[str, Any]:
-        own = {"control": "rows", "full": self.why_full, "fixed": self.kind.array == "fixed"}
-        return {**super().state(), **own, "parts": [row.state() for row in self.parts]}
-
-
-def make_part(name: str, kind: Kind, value: Any, whole: Part) -> Part:
-    """The part of a form for a field of this kind, with this value in it."""
-    made = Rows if kind.array else Group if kind.is_message else Single
-    return made(name, kind, value, whole)
-
-
-def form_of(message_class: Any) -> Group:
-    """A form for messages of this class, with their defaults in it."""
-    return Group("", Kind(""), message_class())
-
-
-def find_part(whole: Part, path: str) -> Part:
-    """The part at a path such as "linear/x" or "points/0/y". Raises ValueError if there is none."""
-    for step in path.split("/"):
-        inner = {part.name: part for part in whole.parts}
-        if step not in inner:
-            raise ValueError(f"This form has no field {path!r}.")
-        whole = inner[step]
-    return whole
+    try:
+        values = safe_load(text)
+    except yaml.YAMLError:
+        values = None
+    if not isinstance(values, list):
+        raise ValueError("a list such as [1.5, 2.0] or [{x: 1.5}, {x: 2.0}] is wanted")
+    return values

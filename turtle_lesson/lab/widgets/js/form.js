@@ -8,24 +8,13 @@ function formPanel(model, order) {
     element("h3", {}, `${isTopic ? "Publish on" : "Call"} ${model.get("name")}`),
     element("small", {}, model.get("type_name")),
   );
-  const place = element("div");
-  let fields = { inputs: {}, errors: {} };
+  const fields = formFields(model.get("fields"), order);
+  if (!model.get("fields").length) fields.panel.append(element("p", { class: "tl-note" }, "Nothing to fill in: this type has no fields."));
   const actions = isTopic ? publishing(model, order) : calling(model, order);
   const line = terminalLine(model);
   const unheard = element("p", { class: "tl-note" });
-  const panel = element("div", {}, head, place, actions.panel, unheard, line.panel);
+  const panel = element("div", {}, head, fields.panel, actions.panel, unheard, line.panel);
 
-  const showTree = () => {
-    const focused = document.activeElement?.dataset?.path;
-    const inside = place.contains(document.activeElement);
-    const open = new Map([...place.querySelectorAll("details")].map((each) => [each.dataset.path, each.open]));
-    fields = formFields(model.get("tree"), order);
-    for (const each of fields.panel.querySelectorAll("details")) if (open.has(each.dataset.path)) each.open = open.get(each.dataset.path);
-    if (!model.get("tree").length) fields.panel.append(element("p", { class: "tl-note" }, "Nothing to fill in: this type has no fields."));
-    place.replaceChildren(fields.panel);
-    showValues(), showErrors();
-    if (inside) [...place.querySelectorAll("[data-path]")].find((each) => each.dataset.path === focused)?.focus();
-  };
   const showValues = () => {
     const values = model.get("values");
     for (const [path, input] of Object.entries(fields.inputs)) {
@@ -42,7 +31,7 @@ function formPanel(model, order) {
     }
   };
   const showUnheard = () => (unheard.textContent = model.get("unheard"));
-  const watch = { tree: showTree, values: showValues, errors: showErrors, unheard: showUnheard };
+  const watch = { values: showValues, errors: showErrors, unheard: showUnheard };
   return { panel, watch: combined(watch, actions.watch, line.watch) };
 }
 
