@@ -13,7 +13,7 @@ from lab_fakes import order
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.recorder import find_class
 from turtle_lesson.lab.widgets.form import publish_line
-from turtle_lesson.lab.widgets.message_fields import Field, Kind, fields_of, in_yaml, kinds_of, read_kind
+from turtle_lesson.lab.widgets.message_fields import Field, Kind, fields_of, kinds_of, read_kind
 from turtle_lesson.ros.idl.names import bounds, is_hidden
 
 
@@ -293,9 +293,3 @@ def test_it_stops_when_its_last_view_closes() -> None:
         return widget.published - published
 
     assert asyncio.run(page()) == 0
-
-
-def test_a_float32_is_shown_with_its_own_digits() -> None:
-    from robot_controller.srv import NavigateTo
-
-    assert in_yaml(NavigateTo.Response(success=True, time_taken=1.9)) == "success: true\ntime_taken: 1.9"

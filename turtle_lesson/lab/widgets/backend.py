@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
+from rosidl_runtime_py import message_to_yaml
 
 from ..graph import others
 from ..words import enumerated, listed, number
-from .message_fields import in_yaml
 
 if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -160,6 +160,9 @@ PATIENCE = 1.0
 
 DISCOVERY = 2.0
 """Seconds for which a question is held back on a real network, until a new client has found its server."""
+
+LONGEST = 128
+"""How many elements or characters of a field are shown of an answer, as `ros2 topic echo` does it."""
 
 
 class LazyPublisher:
@@ -315,7 +318,8 @@ class LazyClient:
             self._end(f"The call failed: {error}")
             return
         seconds = number(self._backend.now - self._asked)
-        self._end(f"{self._name} answered after {seconds} s of robot time.", in_yaml(response))
+        answer = message_to_yaml(response, truncate_length=LONGEST).strip()
+        self._end(f"{self._name} answered after {seconds} s of robot time.", answer)
 
     def _end(self, words: str, answer: str = "") -> None:
         self.give_up()

@@ -1,4 +1,4 @@
-"""Fields of messages: which ones a type has, and of which kind; and a message as a form has it.
+"""Fields of messages: which ones a type has, and of which kind; and the fields of a form.
 
 Everything is read from what the generated Python classes of any ROS 2 offer (`get_fields_and_field_types`), so it works
 alike with the simulated ones and with the real ones.
@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
-import numpy as np
 from rosidl_runtime_py import message_to_ordereddict, set_message_fields
 
 from ...ros.idl.names import bounds
@@ -87,40 +86,6 @@ def read_number(text: str, base: str) -> float:
     if math.isfinite(value) and not low <= value <= high:
         raise ValueError(f"a number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
-
-
-def plain(value: Any, kind: Kind) -> Any:
-    """A number, truth or text of a field, as YAML and JSON have it.
-
-    A float32 is written with the digits that it has: 1.9, not 1.899999976158142.
-    """
-    if isinstance(value, bytes):
-        return value[0]
-    value = value.item() if isinstance(value, np.generic) else value
-    return float(str(np.float32(value))) if kind.base == "float" else value
-
-
-LONGEST_LIST = 50
-"""How many elements of an array are shown of a message."""
-
-
-def in_yaml(message: Any) -> str:
-    """A message in lines as `ros2 topic echo` shows it; of a long array the first elements."""
-    import yaml
-
-    fields = _shown(message, Kind(""))
-    if not fields:
-        return "(the answer has no fields)"
-    return yaml.safe_dump(fields, sort_keys=False, allow_unicode=True, default_flow_style=False).strip()
-
-
-def _shown(value: Any, kind: Kind) -> Any:
-    if kind.array:
-        rest = [f"… and {len(value) - LONGEST_LIST} more"] if len(value) > LONGEST_LIST else []
-        return [*(_shown(each, kind.element) for each in value[:LONGEST_LIST]), *rest]
-    if hasattr(value, "get_fields_and_field_types"):
-        return {name: _shown(getattr(value, name), each) for name, each in kinds_of(value).items()}
-    return plain(value, kind)
 
 
 # -- a form: its fields in the order of the type, each with the text that stands in it ------------------------------------
