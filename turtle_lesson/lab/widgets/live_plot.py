@@ -90,8 +90,6 @@ def steps_to_number(topic: str, type_name: str, rest: str) -> list[Step]:
         steps = [*fields]
     for step in steps:
         if kind.array and isinstance(step, int):
-            if kind.size and step >= kind.size:
-                raise ValueError(f"{walked} has elements 0 to {kind.size - 1}, so there is no [{step}]")
             kind, walked = kind.element, f"{walked}[{step}]"
         elif kind.is_message and not kind.array:
             if step not in fields:

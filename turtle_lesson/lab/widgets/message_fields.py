@@ -35,8 +35,7 @@ class Kind:
     base: str
     """"double", "int32", "boolean", "octet", "string", …, or a message such as "geometry_msgs/Vector3"."""
     array: str = ""
-    """"", "fixed" (exactly `size`), "bounded" (at most `size`) or "unbounded"."""
-    size: int = 0
+    """As a .msg file writes it: "", "[36]" (always so many elements), "[<=3]" (at most so many) or "[]"."""
 
     @property
     def is_message(self) -> bool:
@@ -55,8 +54,7 @@ class Kind:
 
     def __str__(self) -> str:
         """As a .msg file writes it: "float64[<=3]"."""
-        ends = {"": "", "fixed": f"[{self.size}]", "bounded": f"[<={self.size}]", "unbounded": "[]"}
-        return NAMES.get(self.base, self.base) + ends[self.array]
+        return NAMES.get(self.base, self.base) + self.array
 
 
 def read_kind(text: str) -> Kind:
@@ -64,8 +62,7 @@ def read_kind(text: str) -> Kind:
     found = _KIND.fullmatch(text)
     assert found is not None, text
     sequence, base, most, size = found.groups()
-    array = "fixed" if size else "bounded" if most else "unbounded" if sequence else ""
-    return Kind(base, array, int(size or most or 0))
+    return Kind(base, f"[{size}]" if size else f"[<={most}]" if most else "[]" if sequence else "")
 
 
 def kinds_of(message_class: Any) -> dict[str, Kind]:
@@ -83,7 +80,7 @@ def read_number(text: str, base: str) -> float:
         why = ": write a point, not a comma" if "," in typed else ""
         raise ValueError(f'{wanted} is wanted, got "{shortened(typed, 30)}"{why}') from None
     low, high = bounds(NAMES.get(base, base))
-    if math.isfinite(value) and not low <= value <= high:
+    if not low <= value <= high and not (is_float and not math.isfinite(value)):
         raise ValueError(f"a number from {low} to {high} fits here, not {value}".replace("-", "−"))
     return value
 
