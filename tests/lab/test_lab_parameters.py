@@ -217,14 +217,14 @@ def test_values_are_read_by_their_type_and_shown(typed: Any, kind: int, value: s
 @pytest.mark.parametrize(
     ("typed", "kind", "said"),
     [
-        ("yes", BOOL, "expected true or false, got"),
+        ("yes", BOOL, "do not agree"),
         ("1.5", INTEGER, "a whole number such as 3 is wanted, got"),
         (str(2**64), INTEGER, "to 9223372036854775807 fits here"),
         ("x", DOUBLE, 'a number such as 1.5 is wanted, got "x"'),
-        ("1, 2", DOUBLES, "a list of numbers is expected, such as [1.5, 2]"),
-        ("[1, a]", DOUBLES, "a list of numbers is expected"),
-        ("[1", DOUBLES, "a list of numbers is expected"),
-        ("[1]", STRINGS, "a list of texts"),
+        ("1, 2", DOUBLES, "a list such as [1.5, 2.0]"),
+        ("[1, a]", DOUBLES, "could not convert string to float: 'a'"),
+        ("[1", DOUBLES, "a list such as"),
+        ("[1]", STRINGS, "do not agree"),
     ],
 )
 def test_what_a_value_cannot_be(typed: Any, kind: int, said: str) -> None:

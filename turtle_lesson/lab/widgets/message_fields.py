@@ -115,7 +115,7 @@ class Field:
         if isinstance(self.text, bool):
             return self.text
         if self.kind.array:
-            return _read_list(self.text)
+            return read_list(self.text)
         return read_number(self.text, self.kind.base) if self.kind.base in FLOATS | WHOLE else self.text
 
     def put_into(self, message: Any, value: Any) -> None:
@@ -147,7 +147,8 @@ def fields_of(message: Any, above: str = "") -> list[Field]:
     return found
 
 
-def _read_list(text: str) -> list[Any]:
+def read_list(text: str) -> list[Any]:
+    """The list that was typed, as YAML. Raises ValueError, in words, for anything else."""
     import yaml
 
     try:

@@ -18,26 +18,19 @@ from ..graph import node_names
 from ..words import count, enumerated, suggestion
 from .backend import DISCOVERY, Link, in_a_moment
 from .live_widget import LiveWidget
-from .message_fields import read_number
+from .message_fields import read_list, read_number
 
 SERVICES = {"list": "ListParameters", "describe": "DescribeParameters", "get": "GetParameters", "set": "SetParameters"}
 """What is asked of the node, and the type of each service in rcl_interfaces; its name is /node/<what>_parameters."""
 
-
-ARRAYS = ("byte array", "bool array", "integer array", "double array", "string array")
-TYPES = ("not set", "bool", "integer", "double", "string", *ARRAYS)
+BASES = ("bool", "integer", "double", "string")
+TYPES = ("not set", *BASES, "byte array", *(f"{base} array" for base in BASES))
 """By number of rcl_interfaces/msg/ParameterType."""
 
 NOT_SET, BOOL, INTEGER, DOUBLE, STRING, BYTES, BOOLS, INTEGERS, DOUBLES, STRINGS = range(10)
 NUMBERS = {INTEGER: "int64", DOUBLE: "double"}
-ELEMENTS: dict[int, tuple[tuple[type, ...], str, str]] = {
-    BYTES: ((int,), "whole numbers", "[1, 2]"),
-    BOOLS: ((bool,), "true and false", "[true, false]"),
-    INTEGERS: ((int,), "whole numbers", "[1, 2]"),
-    DOUBLES: ((float, int), "numbers", "[1.5, 2]"),
-    STRINGS: ((str,), "texts", "[a, b]"),
-}
-"""What a list of each type may hold, in words, and an example."""
+ELEMENTS: dict[int, Callable[[Any], Any]] = {BYTES: lambda number: bytes([number]), DOUBLES: float}
+"""What makes an element of an array of what YAML has, where that is something else."""
 
 
 @dataclass(slots=True)
@@ -184,7 +177,7 @@ class ParametersPanel(LiveWidget):
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
         try:
             wanted = read_parameter(value, found.value.type or found.descriptor.type, found.descriptor.dynamic_typing)
-        except ValueError as error:
+        except (TypeError, ValueError) as error:
             self._told(found, f"Not asked: {error}")
             return
         self._trouble = self._why_not()
@@ -276,7 +269,7 @@ def _look_up(node: Node, name: str) -> str:
 def shown_parameter(value: msg.ParameterValue) -> str:
     """A value as it stands in a field: YAML for arrays, bytes as numbers; nothing if it is not set."""
     found = parameter_value_to_python(value)
-    if value.type in ELEMENTS:
+    if value.type >= BYTES:
         import yaml
 
         rows = [each[0] for each in found] if value.type == BYTES else list(found)
@@ -285,32 +278,14 @@ def shown_parameter(value: msg.ParameterValue) -> str:
 
 
 def read_parameter(typed: Any, kind: int, dynamic: bool = False) -> Any:
-    """An rcl_interfaces/msg/ParameterValue from what was typed. Raises ValueError, in words, for what it cannot be.
+    """An rcl_interfaces/msg/ParameterValue from what was typed. Raises TypeError or ValueError for what it cannot be.
 
     `kind` is the number of the type; a dynamically typed parameter, and one that is not set, takes what YAML makes of it.
     """
     if dynamic or kind == NOT_SET:
         return get_parameter_value(str(typed))
-    return Parameter("", Parameter.Type(kind), _converted(typed, kind)).get_parameter_value()
-
-
-def _converted(typed: Any, kind: int) -> Any:
-    """What was typed, as a parameter of this type holds it."""
-    if kind == BOOL and not isinstance(typed, bool):
-        raise ValueError(f"expected true or false, got {typed!r}")
-    if kind in (BOOL, STRING):
-        return typed if kind == BOOL else str(typed)
     if kind in NUMBERS:
-        return read_number(str(typed), NUMBERS[kind])
-    import yaml
-
-    from ...ros.runtime.bounded_yaml import safe_load
-
-    elements, words, example = ELEMENTS[kind]
-    try:
-        values = safe_load(str(typed))
-    except yaml.YAMLError:
-        values = None
-    if not isinstance(values, list) or any(type(each) not in elements for each in values):
-        raise ValueError(f"a list of {words} is expected, such as {example}")
-    return [bytes([each]) for each in values] if kind == BYTES else list(map(elements[0], values))
+        typed = read_number(str(typed), NUMBERS[kind])
+    elif kind >= BYTES:
+        typed = [ELEMENTS.get(kind, lambda each: each)(each) for each in read_list(str(typed))]
+    return Parameter("", Parameter.Type(kind), typed).get_parameter_value()
