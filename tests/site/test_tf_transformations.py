@@ -11,14 +11,14 @@ from geometry_msgs.msg import Quaternion
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-LETTERS = ("xyz", "xyx", "xzy", "xzx", "yzx", "yzy", "yxz", "yxy", "zxy", "zxz", "zyx", "zyz")
+LETTERS = ("xyz", "xzy", "yzx", "yxz", "zxy", "zyx")
 angles = st.floats(-7.0, 7.0) | st.sampled_from([0.0, math.pi / 2, -math.pi / 2, math.pi])
 vectors = st.tuples(*[st.floats(-10.0, 10.0)] * 3)
 axes_names = st.sampled_from([f"{kind}{letters}" for kind in "sr" for letters in LETTERS])
 
 
 @given(angles, angles, angles, axes_names)
-def test_angles_come_back_as_the_same_turn_for_all_24_kinds_of_axes(a: float, b: float, c: float, axes: str) -> None:
+def test_angles_come_back_as_the_same_turn_for_all_12_kinds_of_axes(a: float, b: float, c: float, axes: str) -> None:
     matrix = tft.euler_matrix(a, b, c, axes)
     again = tft.euler_from_matrix(matrix, axes)
     assert np.allclose(tft.euler_matrix(*again, axes), matrix, atol=1e-7)
@@ -39,29 +39,11 @@ def test_roll_pitch_and_yaw_are_turns_about_fixed_axes_one_after_the_other(
 def test_figures_that_are_published() -> None:
     assert np.allclose(tft.quaternion_from_euler(1, 2, 3, "ryxz"), [0.310622, -0.718287, 0.444435, 0.435953])
     assert np.isclose(sum(tft.euler_matrix(1, 2, 3, "syxz")[0]), -1.34786452)
-    assert np.isclose(sum(tft.euler_matrix(1, 2, 3, (0, 1, 0, 1))[0]), -0.383436184)
     assert np.allclose(tft.quaternion_multiply([1, -2, 3, 4], [-5, 6, 7, 8]), [-44, -14, 48, 28])
     assert np.allclose(tft.quaternion_about_axis(0.123, (1, 0, 0)), [0.06146124, 0, 0, 0.99810947])
     assert np.allclose(tft.euler_from_quaternion([0.06146124, 0, 0, 0.99810947]), [0.123, 0, 0])
     turn = tft.quaternion_from_matrix(tft.rotation_matrix(0.123, (1, 2, 3)))
     assert np.allclose(turn, [0.0164262, 0.0328524, 0.0492786, 0.9981095])
-
-
-CODES = {
-    "sxyz": (0, 0, 0, 0),
-    "sxzx": (0, 1, 1, 0),
-    "szyx": (2, 1, 0, 0),
-    "syxy": (1, 1, 1, 0),
-    "rzyx": (0, 0, 0, 1),
-    "rxyx": (0, 0, 1, 1),
-    "ryxz": (2, 0, 0, 1),
-    "rzyz": (2, 1, 1, 1),
-}
-
-
-@pytest.mark.parametrize(("name", "code"), CODES.items())
-def test_axes_by_their_old_codes(name: str, code: tuple[int, int, int, int]) -> None:
-    assert np.allclose(tft.euler_matrix(1, 2, 3, code), tft.euler_matrix(1, 2, 3, name))
 
 
 @given(angles, vectors, vectors, vectors)
@@ -74,7 +56,7 @@ def test_turns_as_quaternions_and_matrices_agree(angle: float, axis: tuple, poin
     assert np.allclose(tft.quaternion_matrix(tft.quaternion_multiply(turn, again)), both)
     matrix = tft.rotation_matrix(angle, axis, point)
     assert np.allclose(matrix @ [*point, 1], [*point, 1])
-    assert np.allclose(tft.inverse_matrix(matrix) @ matrix, tft.identity_matrix())
+    assert np.allclose(tft.inverse_matrix(matrix) @ matrix, np.identity(4))
     shifted = tft.translation_matrix(other) @ matrix
     assert np.allclose(tft.translation_from_matrix(shifted), np.array(other) + matrix[:3, 3])
 
@@ -87,11 +69,12 @@ def test_half_way_between_two_turns() -> None:
 
 
 def test_vectors() -> None:
-    assert tft.vector_norm([3, 4]) == 5.0 and np.allclose(tft.unit_vector([3, 4]), [0.6, 0.8])
+    assert np.allclose(tft.unit_vector([3, 4]), [0.6, 0.8])
 
 
 def test_mistakes_are_explained() -> None:
     with pytest.raises(TypeError, match=r"write \[q\.x, q\.y, q\.z, q\.w\]"):
         tft.euler_from_quaternion(Quaternion())
-    with pytest.raises(ValueError, match="axes must be such as 'sxyz' or 'rzyx', got 'xyz'"):
-        tft.quaternion_from_euler(0, 0, 0, "xyz")
+    for axes in ("xyz", "szyz", (0, 0, 0, 0)):
+        with pytest.raises(ValueError, match="axes must be such as 'sxyz' or 'rzyx', with each axis once, got"):
+            tft.quaternion_from_euler(0, 0, 0, axes)

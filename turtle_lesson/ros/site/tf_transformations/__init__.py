@@ -13,11 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from tf2_py import _rotation as turns
 
-# Three angles about three axes, in 24 ways: `sxyz` is roll, pitch, yaw about fixed axes; `rzyx` about turning ones.
+# Three angles about three axes, in 12 ways: `sxyz` is roll, pitch, yaw about fixed axes; `rzyx` about turning ones.
 # The letters name the axes in the order of the angles; `s` means axes that stay, `r` axes that are turned along.
-
-Axes = str | tuple[int, int, int, int]
-"""A name such as "sxyz", or its code: the first axis, then 1 or 0 for an odd order, a repeated axis, and turning axes."""
 
 Angles = tuple[float, float, float]
 Numbers = tuple[float, float, float, float]
@@ -25,21 +22,15 @@ Matrix = npt.NDArray[np.float64]
 EPSILON = float(np.finfo(float).eps) * 4.0
 
 
-def _axes(axes: Axes) -> tuple[bool, tuple[int, ...]]:
+def _axes(axes: str) -> tuple[bool, tuple[int, ...]]:
     """Whether the axes turn along, and which they are."""
-    if not isinstance(axes, str):
-        first, parity, repeated, turning = axes
-        second = (first + 1 + parity) % 3
-        fixed = (first, second, first if repeated else 3 - first - second)
-        return bool(turning), fixed[::-1] if turning else fixed
     kind, letters = axes[:1], axes[1:]
-    numbers = tuple(map("xyz".find, letters))
-    if kind not in "sr" or len(numbers) != 3 or -1 in numbers or numbers[1] in (numbers[0], numbers[2]):
-        raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', got {axes!r}")
-    return kind == "r", numbers
+    if kind not in ("s", "r") or sorted(letters) != ["x", "y", "z"]:
+        raise ValueError(f"axes must be such as 'sxyz' or 'rzyx', with each axis once, got {axes!r}")
+    return kind == "r", tuple(map("xyz".index, letters))
 
 
-def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Numbers:
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Numbers:
     """The quaternion of three angles: by default roll, pitch and yaw."""
     turning, numbers = _axes(axes)
     found: Numbers = (0.0, 0.0, 0.0, 1.0)
@@ -49,52 +40,28 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
     return found
 
 
-def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Matrix:
+def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Matrix:
     """The 4 × 4 matrix of three angles: by default roll, pitch and yaw."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
-def euler_from_quaternion(quaternion: Iterable[float], axes: Axes = "sxyz") -> Angles:
+def euler_from_quaternion(quaternion: Iterable[float], axes: str = "sxyz") -> Angles:
     """The angles of a quaternion [x, y, z, w]: by default roll, pitch and yaw."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
-def euler_from_matrix(matrix: npt.ArrayLike, axes: Axes = "sxyz") -> Angles:
+def euler_from_matrix(matrix: npt.ArrayLike, axes: str = "sxyz") -> Angles:
     """The angles of a turn in a matrix. Where many would do, the one about the last fixed axis is 0."""
     turning, numbers = _axes(axes)
     turn = np.array(matrix, dtype=np.float64)[:3, :3]
     # Fixed axes one after the other are the same as turning ones the other way round.
-    angles = _turning_angles(turn, numbers if turning else numbers[::-1])
-    return angles if turning else angles[::-1]
-
-
-def _turning_angles(turn: Matrix, axes: tuple[int, ...]) -> Angles:
-    a, b, c = axes
-    if a == c:
-        return _with_repeated_axis(turn, a, b)
+    a, b, c = numbers if turning else numbers[::-1]
     sign = 1.0 if (b - a) % 3 == 1 else -1.0
     cosine = math.hypot(turn[a, a], turn[a, b])
-    middle = math.atan2(sign * turn[a, c], cosine)
-    if cosine < EPSILON:
-        return 0.0, middle, math.atan2(sign * turn[b, a], turn[b, b])
-    first = math.atan2(-sign * turn[b, c], turn[c, c])
-    return first, middle, math.atan2(-sign * turn[a, b], turn[a, a])
-
-
-def _with_repeated_axis(turn: Matrix, a: int, b: int) -> Angles:
-    other = 3 - a - b
-    sign = 1.0 if (b - a) % 3 == 1 else -1.0
-    sine = math.hypot(turn[a, b], turn[a, other])
-    middle = math.atan2(sine, turn[a, a])
-    if sine < EPSILON:
-        return 0.0, middle, math.atan2(-sign * turn[b, other], turn[b, b])
-    first = math.atan2(turn[b, a], -sign * turn[other, a])
-    return first, middle, math.atan2(turn[a, b], sign * turn[a, other])
-
-
-def identity_matrix() -> Matrix:
-    """The matrix that changes nothing."""
-    return np.identity(4)
+    first, middle, last = 0.0, math.atan2(sign * turn[a, c], cosine), math.atan2(sign * turn[b, a], turn[b, b])
+    if cosine >= EPSILON:
+        first, last = math.atan2(-sign * turn[b, c], turn[c, c]), math.atan2(-sign * turn[a, b], turn[a, a])
+    return (first, middle, last) if turning else (last, middle, first)
 
 
 def translation_matrix(direction: npt.ArrayLike) -> Matrix:
@@ -180,11 +147,6 @@ def quaternion_slerp(quat0: npt.ArrayLike, quat1: npt.ArrayLike, fraction: float
     """The turn at a fraction of the shorter way between two, at an even speed."""
     start, end = _four(unit_vector(quat0)), _four(unit_vector(quat1))
     return np.array(turns.slerp(start, end, fraction))
-
-
-def vector_norm(data: npt.ArrayLike) -> float:
-    """The length of a vector."""
-    return float(np.linalg.norm(data))
 
 
 def unit_vector(data: npt.ArrayLike) -> Matrix:
