@@ -26,8 +26,9 @@ from rclpy.parameter import Parameter
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from rosidl_runtime_py import message_to_ordereddict
-from tf2_py._rotation import matrix_of, roll_pitch_yaw, turn_from_angles
+from tf2_py._rotation import matrix_of
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformException, TransformListener
+from tf_transformations import euler_from_matrix, quaternion_from_euler
 
 from . import spin
 
@@ -65,7 +66,7 @@ def text_of(transform: TransformStamped) -> str:
     stamp, shift, turn = transform.header.stamp, transform.transform.translation, transform.transform.rotation
     quaternion = (turn.x, turn.y, turn.z, turn.w)
     matrix = matrix_of(quaternion)
-    angles = roll_pitch_yaw(matrix)
+    angles = euler_from_matrix(matrix)
     place = (shift.x, shift.y, shift.z)
     rows = [(*row, there) for row, there in zip(matrix, place, strict=True)]
     return "\n".join(
@@ -179,7 +180,7 @@ def read_words(words: list[str]) -> TransformStamped:
     if any(part is not None for part in turn):
         rotation = [default if part is None else part for part, default in zip(turn, (0.0, 0.0, 0.0, 1.0), strict=True)]
     else:
-        rotation = [*turn_from_angles(*(angle or 0.0 for angle in angles))]
+        rotation = [*quaternion_from_euler(*(angle or 0.0 for angle in angles))]
     message = TransformStamped(child_frame_id=args.child_frame_id)
     message.header.frame_id = args.frame_id
     message.transform.translation = Vector3(x=args.x, y=args.y, z=args.z)

@@ -104,24 +104,3 @@ def turn_of(matrix: Matrix) -> Quaternion:
 def canonical(turn: Quaternion) -> Quaternion:
     """The same turn as tf2 hands it out: it keeps turns as matrices, so that length and sign of a quaternion are lost."""
     return turn_of(matrix_of(turn))
-
-
-def roll_pitch_yaw(matrix: Matrix) -> Vector:
-    """Angles (rad) about the fixed axes x, y and z, one after the other; at a pitch of ±90° yaw is 0."""
-    if abs(matrix[2][0]) >= 1.0:
-        sign = -1.0 if matrix[2][0] > 0.0 else 1.0
-        return (math.atan2(sign * matrix[0][1], sign * matrix[0][2]), sign * math.pi / 2.0, 0.0)
-    pitch = -math.asin(matrix[2][0])
-    return (
-        math.atan2(matrix[2][1], matrix[2][2]),
-        pitch,
-        math.atan2(matrix[1][0], matrix[0][0]),
-    )
-
-
-def turn_from_angles(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """The quaternion of angles (rad) about the fixed axes x, y and z, one after the other."""
-    about_x = (math.sin(roll / 2.0), 0.0, 0.0, math.cos(roll / 2.0))
-    about_y = (0.0, math.sin(pitch / 2.0), 0.0, math.cos(pitch / 2.0))
-    about_z = (0.0, 0.0, math.sin(yaw / 2.0), math.cos(yaw / 2.0))
-    return multiply(about_z, multiply(about_y, about_x))
