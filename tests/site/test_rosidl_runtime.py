@@ -38,7 +38,7 @@ from rosidl_parser.definition import (
 from rosidl_runtime_py import message_to_csv, message_to_ordereddict, message_to_yaml, set_message_fields
 from rosidl_runtime_py import utilities as by_name
 
-from turtle_lesson.ros.runtime.world import World
+from turtle_lesson.ros.idl.registry import registry
 
 # -- by name -------------------------------------------------------------------------------------------------------------
 
@@ -94,16 +94,6 @@ def test_kinds_are_told_apart() -> None:
     assert [by_name.is_message(kind) for kind in kinds] == [True, False, False]
     assert [by_name.is_service(kind) for kind in kinds] == [False, True, False]
     assert [by_name.is_action(kind) for kind in kinds] == [False, False, True]
-
-
-def test_lists_of_interfaces(world: World) -> None:
-    assert api.get_interfaces(["std_srvs", "rclpy"]) == {"std_srvs": ["srv/Empty", "srv/SetBool", "srv/Trigger"]}
-    assert api.get_message_interfaces(["turtlesim"]) == {"turtlesim": ["msg/Color", "msg/Pose"]}
-    assert api.get_service_interfaces(["std_msgs", "std_srvs"]).keys() == {"std_srvs"}
-    assert "turtlesim" in api.get_action_interfaces() and "std_msgs" not in api.get_action_interfaces()
-    assert sum(len(names) for names in api.get_interfaces().values()) > 200
-    with pytest.raises(LookupError, match="Unknown package 'nope'"):
-        api.get_message_interfaces(["nope"])
 
 
 # -- messages as text ----------------------------------------------------------------------------------------------------
@@ -241,7 +231,8 @@ def test_a_message_of_ones_own_making_will_do() -> None:
 
 @given(st.data())
 def test_what_is_printed_in_full_can_be_read_back(data: st.DataObject) -> None:
-    names = [f"{package}/{name}" for package, found in api.get_message_interfaces().items() for name in found]
+    packages = {package: registry.package(package).interface_names() for package in registry.packages()}
+    names = [f"{package}/{name}" for package, found in packages.items() for name in found if name.startswith("msg/")]
     kind = by_name.get_message(data.draw(st.sampled_from(names)))
     message = data.draw(messages(kind, by_name.get_message))
     text = message_to_yaml(message)
