@@ -182,12 +182,13 @@ def test_a_definition_of_ones_own_that_is_refused_says_why(world: World, tmp_pat
 @pytest.mark.parametrize(
     ("typed", "said"),
     [
-        ("off: 1", "'bool'\nYAML reads off as false: put the field's name in quotes, 'off'."),
-        ("yes: 1", "'bool'"),
-        ("3: 1", "'int'"),
+        ("off: 1", "'bool'\nYAML reads it as false"),
+        ("yes: 1", "'bool'\nYAML reads it as true"),
+        ("3: 1", "'int'\nYAML reads it as 3"),
     ],
 )
 def test_a_fields_name_that_yaml_takes_for_something_else(world: World, typed: str, said: str) -> None:
     with pytest.raises(CommandError) as caught:
         populate(class_of("turtlesim/srv/SetPen", "srv").Request(), read_yaml("{r: 7, " + typed + "}"))
-    assert str(caught.value) == f"Failed to populate field: attribute name must be string, not {said}"
+    advice = ": put the field's name in quotes, such as 'off'."
+    assert str(caught.value) == f"Failed to populate field: attribute name must be string, not {said}{advice}"

@@ -32,11 +32,7 @@ class SimpleFilter:
     def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:
         """Have `cb(message, …, *args)` called for each output; returns the callback's number."""
         if not callable(cb):
-            error = TypeError(f"a callback is expected, got {cb!r}")
-            error.add_note(
-                "Hand over the function itself, as in self.both; with brackets it would be called immediately."
-            )
-            raise error
+            raise TypeError(f"a callback is expected, got {cb!r}: hand over the function itself, as in self.both")
         number = len(self.callbacks)
         self.callbacks[number] = (cb, args)
         return number
@@ -56,12 +52,9 @@ class Subscriber(SimpleFilter):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__()
         if len(args) != 3 or not isinstance(args[0], Node):
-            error = TypeError(f"Subscriber() takes a node, a message type and a topic, then keywords; got {args!r}")
-            if len(args) > 3:
-                error.add_note(f"Give the profile of quality by its name: qos_profile={args[3]!r}.")
-            elif args and not isinstance(args[0], Node):
-                error.add_note("The node comes first: Subscriber(self, Image, '/camera').")
-            raise error
+            raise TypeError(
+                f"write Subscriber(node, Image, '/camera', qos_profile=10), with the profile by name; got {args!r}"
+            )
         self.node, _, self.topic = args
         kwargs.setdefault("qos_profile", 10)
         self.sub = self.node.create_subscription(*args[1:], self.callback, **kwargs)
@@ -76,9 +69,7 @@ class Subscriber(SimpleFilter):
 
     def __getattr__(self, key: str) -> Any:
         """Everything else is the subscription's."""
-        if key == "sub":  # it could not be made
-            raise AttributeError(key)
-        return getattr(self.sub, key)
+        return getattr(vars(self)["sub"], key)
 
 
 class Cache(SimpleFilter):

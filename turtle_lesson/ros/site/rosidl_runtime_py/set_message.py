@@ -56,7 +56,9 @@ class _Filling:
         types = get_message_slot_types(message)
         for name, value in values.items():
             if not isinstance(name, str):
-                raise _no_text(name, list(types))
+                error = TypeError(f"attribute name must be string, not '{type(name).__name__}'")
+                error.add_note(f"YAML reads it as {str(name).lower()}: put the field's name in quotes, such as 'off'.")
+                raise error
             if name not in types:
                 raise _no_such_field(message, name, list(types))
             self._set(message, name, value, types[name])
@@ -106,18 +108,6 @@ class _Filling:
         for message, value in zip(made, values, strict=True):
             self.fill(message, value)
         return made
-
-
-def _no_text(name: Any, fields: list[str]) -> TypeError:
-    """A field's name that is no text, such as off, which YAML reads as false."""
-    error = TypeError(f"attribute name must be string, not '{type(name).__name__}'")
-    meant = [field for field in fields if field.lower() in _TRUTH and _TRUTH[field.lower()] is name]
-    if meant:
-        error.add_note(f"YAML reads {meant[0]} as {str(name).lower()}: put the field's name in quotes, '{meant[0]}'.")
-    return error
-
-
-_TRUTH = {"on": True, "yes": True, "true": True, "off": False, "no": False, "false": False}
 
 
 def _no_such_field(message: Any, name: str, known: list[str]) -> AttributeError:

@@ -26,11 +26,6 @@ from tf2_py import _rotation as turns
 from tf2_ros import TransformRegistration
 
 
-def _parts(transform: TransformStamped) -> tuple[turns.Quaternion, turns.Vector]:
-    """Turn and shift of a transform."""
-    return _turn(transform.transform.rotation), _vector(transform.transform.translation)
-
-
 def _vector(message: Any) -> turns.Vector:
     return (message.x, message.y, message.z)
 
@@ -39,45 +34,37 @@ def _turn(message: Quaternion) -> turns.Quaternion:
     return turns.canonical((message.x, message.y, message.z, message.w))
 
 
-def _expect(value: Any, kind: Any, function: str, hint: str = "") -> None:
-    if not isinstance(value, kind):
-        raise TypeError(f"{function}() transforms a {kind.__name__}, got a {type(value).__name__}{hint}")
+def _turned(vector: Any, transform: TransformStamped) -> turns.Vector:
+    return turns.rotate(_turn(transform.transform.rotation), _vector(vector))
 
 
 def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:
     """A point as seen from the other frame."""
-    _expect(point, PointStamped, "do_transform_point")
-    turn, shift = _parts(transform)
-    x, y, z = turns.add(turns.rotate(turn, _vector(point.point)), shift)
+    x, y, z = turns.add(_turned(point.point, transform), _vector(transform.transform.translation))
     return PointStamped(header=transform.header, point=Point(x=x, y=y, z=z))
 
 
 def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -> Vector3Stamped:
     """A direction or velocity as seen from the other frame: turned, not shifted."""
-    _expect(vector3, Vector3Stamped, "do_transform_vector3")
-    turn, _ = _parts(transform)
-    return Vector3Stamped(header=transform.header, vector=_turned(turn, vector3.vector))
-
-
-def _turned(turn: turns.Quaternion, vector: Vector3) -> Vector3:
-    x, y, z = turns.rotate(turn, _vector(vector))
-    return Vector3(x=x, y=y, z=z)
+    x, y, z = _turned(vector3.vector, transform)
+    return Vector3Stamped(header=transform.header, vector=Vector3(x=x, y=y, z=z))
 
 
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     """A pose as seen from the other frame."""
-    stamped = isinstance(pose, PoseStamped)
-    _expect(pose, Pose, "do_transform_pose", ": use do_transform_pose_stamped()" if stamped else "")
-    turn, shift = _parts(transform)
-    place = turns.add(turns.rotate(turn, _vector(pose.position)), shift)
-    x, y, z, w = turns.canonical(turns.multiply(turn, _turn(pose.orientation)))
+    if not isinstance(pose, Pose):
+        kind = type(pose).__name__
+        raise TypeError(
+            f"do_transform_pose() transforms a Pose, got {kind}: use do_transform_pose_stamped() for a PoseStamped"
+        )
+    place = turns.add(_turned(pose.position, transform), _vector(transform.transform.translation))
+    x, y, z, w = turns.canonical(turns.multiply(_turn(transform.transform.rotation), _turn(pose.orientation)))
     position = Point(x=place[0], y=place[1], z=place[2])
     return Pose(position=position, orientation=Quaternion(x=x, y=y, z=z, w=w))
 
 
 def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) -> PoseStamped:
     """A stamped pose as seen from the other frame."""
-    _expect(pose, PoseStamped, "do_transform_pose_stamped")
     return PoseStamped(header=transform.header, pose=do_transform_pose(pose.pose, transform))
 
 
@@ -85,7 +72,6 @@ def do_transform_pose_with_covariance_stamped(
     pose: PoseWithCovarianceStamped, transform: TransformStamped
 ) -> PoseWithCovarianceStamped:
     """A pose with its uncertainty as seen from the other frame."""
-    _expect(pose, PoseWithCovarianceStamped, "do_transform_pose_with_covariance_stamped")
     result = PoseWithCovarianceStamped(header=transform.header)
     result.pose.pose = do_transform_pose(pose.pose.pose, transform)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
@@ -94,7 +80,7 @@ def do_transform_pose_with_covariance_stamped(
 
 def transform_covariance(cov_in: Any, transform: TransformStamped) -> npt.NDArray[np.float64]:
     """A covariance of x, y, z and the angles about them (36 numbers), turned into the other frame."""
-    block = np.array(turns.matrix_of(_parts(transform)[0]))
+    block = np.array(turns.matrix_of(_turn(transform.transform.rotation)))
     both = np.kron(np.eye(2), block)
     covariance = np.asarray(cov_in, dtype=np.float64).reshape(6, 6)
     return (both @ covariance @ both.T).reshape(36)
@@ -102,12 +88,12 @@ def transform_covariance(cov_in: Any, transform: TransformStamped) -> npt.NDArra
 
 def do_transform_wrench(wrench: WrenchStamped, transform: TransformStamped) -> WrenchStamped:
     """A force and torque as seen from the other frame: the shift gives the force a lever."""
-    _expect(wrench, WrenchStamped, "do_transform_wrench")
-    turn, shift = _parts(transform)
-    force, torque = _turned(turn, wrench.wrench.force), _turned(turn, wrench.wrench.torque)
-    lever = np.cross(shift, _vector(force))
-    torque = Vector3(x=torque.x + float(lever[0]), y=torque.y + float(lever[1]), z=torque.z + float(lever[2]))
-    return WrenchStamped(header=transform.header, wrench=Wrench(force=force, torque=torque))
+    force, (x, y, z) = _turned(wrench.wrench.force, transform), _turned(wrench.wrench.torque, transform)
+    lever = np.cross(_vector(transform.transform.translation), force)
+    torque = Vector3(x=x + float(lever[0]), y=y + float(lever[1]), z=z + float(lever[2]))
+    return WrenchStamped(
+        header=transform.header, wrench=Wrench(force=Vector3(x=force[0], y=force[1], z=force[2]), torque=torque)
+    )
 
 
 for _kind, _function in (

@@ -31,8 +31,5 @@ class TransformRegistration:
         if key in self._functions:
             return self._functions[key]
         error = TypeException(f"Type {key} is not loaded or supported")
-        if "sensor_msgs" in str(key) and "geometry_msgs" not in str(key):
-            error.add_note("The types of sensor_msgs are transformed by tf2_sensor_msgs, which is not available here")
-        else:
-            error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
+        error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
         raise error

@@ -44,7 +44,7 @@ class RcutilsLogger:
 
     def set_level(self, level: int) -> None:
         """Print only what is at least this severe."""
-        levels()[self.name] = as_severity(level)
+        levels()[self.name] = LoggingSeverity(level)
 
     def get_effective_level(self) -> LoggingSeverity:
         """The level in force: this logger's, or that of the nearest one above it that has one."""
@@ -52,13 +52,13 @@ class RcutilsLogger:
 
     def is_enabled_for(self, severity: int) -> bool:
         """Whether a line of this severity would be printed."""
-        return as_severity(severity) >= self.get_effective_level()
+        return LoggingSeverity(severity) >= self.get_effective_level()
 
     def log(self, message: str, severity: int, name: str | None = None, **kwargs: Any) -> bool:
         """Log a line, under another name if one is given; False if it was held back."""
         if name is not None:
             kwargs["name"] = name
-        return self._log(message, as_severity(severity), kwargs, sys._getframe(1))
+        return self._log(message, LoggingSeverity(severity), kwargs, sys._getframe(1))
 
     def debug(self, message: str, **kwargs: Any) -> bool:
         """Log a line that only its developer wants to see."""
@@ -110,16 +110,6 @@ class RcutilsLogger:
         if publish is not None and goes_to.get("rosout", True):
             publish(name, message, severity, frame)
         return True
-
-
-def as_severity(level: int) -> LoggingSeverity:
-    """The severity of a number; ValueError for what is none."""
-    try:
-        return LoggingSeverity(level)
-    except ValueError as error:
-        names = ", ".join(severity.name for severity in LoggingSeverity)
-        error.add_note(f"Levels are rclpy.logging.LoggingSeverity.DEBUG and the others: {names}.")
-        raise
 
 
 def _effective_level(name: str) -> LoggingSeverity:
