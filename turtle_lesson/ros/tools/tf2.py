@@ -180,7 +180,8 @@ def read_words(words: list[str]) -> TransformStamped:
     if any(part is not None for part in turn):
         rotation = [default if part is None else part for part, default in zip(turn, (0.0, 0.0, 0.0, 1.0), strict=True)]
     else:
-        rotation = [*quaternion_from_euler(*(angle or 0.0 for angle in angles))]
+        roll, pitch, yaw = (angle or 0.0 for angle in angles)
+        rotation = [*quaternion_from_euler(roll, pitch, yaw)]
     message = TransformStamped(child_frame_id=args.child_frame_id)
     message.header.frame_id = args.frame_id
     message.transform.translation = Vector3(x=args.x, y=args.y, z=args.z)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from turtle_lesson.ros.rmw.endpoint import Quality
 
 from . import type_support
-from ._entity import Assignment
+from ._entity import Assignment, Entity
 from ._hints import refuse_unbuilt
 from ._node_graph import NodeGraph
 from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from .client import Client
 from .clock import Clock, ROSClock
+from .context import Context
 from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
 from .exceptions import RCLError, not_valid
 from .guard_condition import GuardCondition
@@ -20,12 +23,6 @@ from .qos import QoSProfile, checked_profile, qos_profile_services_default
 from .service import Service
 from .subscription import Subscription
 from .timer import Rate, Timer, period_ns
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.rmw.endpoint import Quality
-
-    from ._entity import Entity
-    from .context import Context
 
 
 class NodeEntities(NodeGraph):

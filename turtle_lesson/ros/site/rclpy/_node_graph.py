@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtle_lesson.ros.rmw.graph import NodeEntry, Topic
 from turtle_lesson.ros.rmw.names import Remap, remap
@@ -14,14 +14,12 @@ from turtle_lesson.ros.runtime.world import current_world
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
 from ._blocking import wait_until
+from .context import Context
 from .exceptions import NameValidationException, NodeNameNonExistentError, RCLError, refuse_destroyed, refuse_ended
 from .expand_topic_name import expand_topic_name
 from .topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from .validate_full_topic_name import validate_full_topic_name
 from .validate_topic_name import validate_topic_name
-
-if TYPE_CHECKING:
-    from .context import Context
 
 LOOK_AGAIN = 100_000_000
 """How often, in ns, `wait_for_node` looks."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 
@@ -21,10 +21,7 @@ from .exceptions import (
     ParameterUninitializedException,
 )
 from .parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
-
-if TYPE_CHECKING:
-    from .publisher import Publisher
-
+from .publisher import Publisher
 
 TOLERANCE = 1e-6
 """How far, relatively, a floating-point value may be off an end or a step of its range."""

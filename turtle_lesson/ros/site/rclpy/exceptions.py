@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 from turtle_lesson.ros.rmw import names
 from turtle_lesson.ros.sim.errors import WorldClosed
+from turtle_lesson.ros.sim.simulation import Simulation
 
 from ._rclpy_pybind11 import InvalidHandle, RCLError
 from ._rclpy_pybind11 import NodeNameNonExistentError as NodeNameNonExistentError
 from ._rclpy_pybind11 import RCLInvalidROSArgsError as RCLInvalidROSArgsError
 from ._rclpy_pybind11 import TimerCancelledError as TimerCancelledError
 from ._rclpy_pybind11 import UnknownROSArgsError as UnknownROSArgsError
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.sim.simulation import Simulation
 
 
 class NotInitializedException(Exception):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtle_lesson.ros.rmw.graph import NodeEntry
 from turtle_lesson.ros.rmw.names import Remap
@@ -24,6 +24,7 @@ from .client import Client
 from .clock import Clock
 from .context import Context
 from .exceptions import NotInitializedException, RCLError
+from .executors import Executor
 from .guard_condition import GuardCondition
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
@@ -40,9 +41,6 @@ from .timer import Timer
 from .utilities import get_default_context
 from .validate_namespace import validate_namespace
 from .validate_node_name import validate_node_name
-
-if TYPE_CHECKING:
-    from .executors import Executor
 
 HIDDEN_NODE_PREFIX = "_"
 """What the name of a node begins with that tools leave out of their lists."""

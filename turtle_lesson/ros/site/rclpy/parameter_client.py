@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ._blocking import wait_until
 from .callback_groups import CallbackGroup
 from .client import POLL, Client
+from .node import Node
 from .parameter import Parameter, parameter_dict_from_yaml_file
 from .parameter_service import SERVICES
 from .qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
 from .subscription import Subscription
 from .task import Future
-
-if TYPE_CHECKING:
-    from .node import Node
 
 Told = Callable[[Future], Any] | None
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .callback_groups import CallbackGroup
+from .node import Node
 from .qos import QoSProfile, qos_profile_parameter_events
-
-if TYPE_CHECKING:
-    from .node import Node
 
 GONE = "Callback doesn't exist"
 

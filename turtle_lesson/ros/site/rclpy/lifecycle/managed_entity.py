@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from enum import Enum
 from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from .node import LifecycleState
+
+class LifecycleState(NamedTuple):
+    """A state, as a transition's callback is told it: the one that the transition begins in."""
+
+    label: str
+    state_id: int
 
 
 class TransitionCallbackReturnType(Enum):
@@ -17,9 +21,6 @@ class TransitionCallbackReturnType(Enum):
     SUCCESS = 97
     FAILURE = 98
     ERROR = 99
-
-    def __int__(self) -> int:
-        return self.value
 
     def to_label(self) -> str:
         """The label of the transition that follows."""

@@ -14,7 +14,7 @@ from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
 from ..impl.rcutils_logger import RcutilsLogger
 from ..node import Node
-from .managed_entity import ManagedEntity, TransitionCallbackReturn
+from .managed_entity import LifecycleState, ManagedEntity, TransitionCallbackReturn
 from .publisher import LifecyclePublisher
 
 CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
@@ -106,13 +106,6 @@ class StateMachine:
             raise error
         self.current_state = transition.goal
         self._notify(transition.start, transition.goal)
-
-
-class LifecycleState(NamedTuple):
-    """A state, as a transition's callback is told it: the one that the transition begins in."""
-
-    label: str
-    state_id: int
 
 
 class LifecycleNodeMixin(ManagedEntity):
