@@ -32,7 +32,7 @@ FLAGS = {
     "--log-config-file": "log config file",
     "--log-file-name": "string prefix",
 }
-"""What must follow each flag. Nothing comes of enclaves, which are all /, and no log files are written."""
+"""What must follow each flag. Nothing comes of enclaves, which are all /, and of log files, as none are written."""
 
 SWITCH = re.compile(r"--(enable|disable)-(rosout|stdout|external-lib)-logs")
 LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
@@ -68,7 +68,6 @@ class Arguments:
     """By logger; '' is the default."""
     switches: dict[str, bool] = field(default_factory=dict)
     """Whether logs go to `rosout`, `stdout` and `external-lib`, as far as that is said."""
-    log_config_file: str = ""
     others: list[str] = field(default_factory=list)
     """The words that are not ROS's."""
 
@@ -159,8 +158,6 @@ def _take(flag: str, value: str, found: Arguments) -> None:
                 known = ", ".join(LEVELS[1:])
                 raise YamlValueError(f"Argument does not use a valid severity level; levels are {known}")
             found.log_levels[logger] = level
-        elif flag == "--log-config-file":
-            found.log_config_file = value
     except YamlValueError as error:
         raise ArgumentError(f"Couldn't parse {FLAGS[flag]}: '{flag} {value}'. Error: {error}") from None
 

@@ -63,10 +63,6 @@ class Context:
         self._process.at_exit.append(self._end)  # what the process leaves behind disappears
 
     def _set_up_logging(self) -> None:
-        if self.arguments.log_config_file:
-            raise RCLError(
-                "failed to initialize logging: spdlog logging backend doesn't currently support external configuration"
-            )
         for name, level in self.arguments.log_levels.items():
             RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
         own = self._state
