@@ -50,10 +50,6 @@ REMAPS = {
 PARAMETER = re.compile(rf"{NODE}(?P<name>{PART}(?:\.{PART})*):=(?P<value>.+)", re.DOTALL)
 
 
-class ArgumentError(ValueError):
-    """ROS arguments cannot be read."""
-
-
 class YamlValueError(ValueError):
     """A YAML text is no parameter value; the text is ROS's, with advice."""
 
@@ -90,8 +86,8 @@ class Arguments:
 def parse_arguments(words: list[str]) -> Arguments:
     """Read the ROS arguments among a process's arguments, which stand between `--ros-args` and `--`.
 
-    Raises ArgumentError for what cannot be read, UnknownROSArgsError for what means nothing. A warning is logged for each
-    remapping rule that is given as ROS 2 had it before `--ros-args`.
+    Raises RCLInvalidROSArgsError for what cannot be read, UnknownROSArgsError for what means nothing. A warning is logged
+    for each remapping rule that is given as ROS 2 had it before `--ros-args`.
     """
     if not isinstance(words, list) or not all(isinstance(word, str) for word in words):
         raise TypeError(f"arguments must be a list of str, as sys.argv is, got {words!r}")
@@ -107,7 +103,7 @@ def parse_arguments(words: list[str]) -> Arguments:
         elif inside and (flag := SHORT.get(word, word)) in FLAGS:
             value = next(iterator, None)
             if value is None:
-                raise ArgumentError(f"Couldn't parse trailing {word} flag. No {FLAGS[flag]} found.")
+                raise RCLInvalidROSArgsError(f"Couldn't parse trailing {word} flag. No {FLAGS[flag]} found.")
             _take(flag, value, found)
         elif inside and (switch := SWITCH.fullmatch(word)) is not None:
             found.switches[switch[2]] = switch[1] == "enable"
@@ -127,22 +123,13 @@ def parse_arguments(words: list[str]) -> Arguments:
     return found
 
 
-def own_arguments(words: list[str]) -> Arguments:
-    """As `parse_arguments`, for what is read after `rclpy.init()`: raises RCLInvalidROSArgsError for ArgumentError."""
-    try:
-        return parse_arguments(words)
-    except ArgumentError as error:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
-
-
 def _take(flag: str, value: str, found: Arguments) -> None:
     """Add what a flag and its value say to what was found so far."""
     try:
         if flag == "-r":
             rule = read_remap(value)
             if rule is None:
-                namespace = ", a namespace like __ns:=/group" if "__ns" in value else ""
-                raise YamlValueError(f"a rule looks like old_name:=new_name{namespace}")
+                raise YamlValueError("a rule looks like old_name:=new_name, or __ns:=/group for a namespace")
             found.remaps.append(rule)
         elif flag == "-p":
             match = PARAMETER.fullmatch(value)
@@ -159,7 +146,7 @@ def _take(flag: str, value: str, found: Arguments) -> None:
                 raise YamlValueError(f"Argument does not use a valid severity level; levels are {known}")
             found.log_levels[logger] = level
     except YamlValueError as error:
-        raise ArgumentError(f"Couldn't parse {FLAGS[flag]}: '{flag} {value}'. Error: {error}") from None
+        raise RCLInvalidROSArgsError(f"Couldn't parse {FLAGS[flag]}: '{flag} {value}'. Error: {error}") from None
 
 
 def read_remap(rule: str) -> Remap | None:

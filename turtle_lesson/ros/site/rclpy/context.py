@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 from turtle_lesson.ros.runtime.world import current_process
 
 from ._entity import Handle
-from ._ros_args import ArgumentError, Arguments, parse_arguments
+from ._ros_args import Arguments, parse_arguments
 from ._state import RclpyState
-from .exceptions import RCLError
+from .exceptions import RCLError, RCLInvalidROSArgsError
 from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
 
@@ -52,7 +52,7 @@ class Context:
             raise RuntimeError("Context.init() must only be called once")
         try:
             self.arguments = parse_arguments(self._process.argv if args is None else args)
-        except ArgumentError as error:
+        except RCLInvalidROSArgsError as error:
             RcutilsLogger("rcl").error("Failed to parse global arguments")
             raise RCLError(f"failed to initialize rcl: {error}") from None
         self._domain_id = domain_id or 0

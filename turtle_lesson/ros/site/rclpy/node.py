@@ -17,7 +17,7 @@ from ._hints import find_taken, set_by_init
 from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
 from ._node_parameters import TOLERANCE, NodeParameters
-from ._ros_args import Arguments, own_arguments
+from ._ros_args import Arguments, parse_arguments
 from ._state import RclpyState
 from .callback_groups import CallbackGroup
 from .client import Client
@@ -84,7 +84,7 @@ class Node(NodeParameters):
         context = get_default_context() if context is None else context
         if not context.ok():
             raise NotInitializedException("cannot create node")
-        own = own_arguments([] if cli_args is None else cli_args)
+        own = parse_arguments([] if cli_args is None else cli_args)
         common = context.arguments if use_global_arguments else Arguments()
         remaps = own.remaps + common.remaps
         entry = NodeEntry(*_names(node_name, namespace, remaps), current_process())

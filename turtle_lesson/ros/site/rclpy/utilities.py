@@ -7,7 +7,7 @@ import sys
 from turtle_lesson.ros.runtime.world import current_process
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain
 
-from ._ros_args import own_arguments
+from ._ros_args import parse_arguments
 from ._state import RclpyState
 from .constants import S_TO_NS
 from .context import Context
@@ -56,7 +56,7 @@ def remove_ros_args(args: list[str] | None = None) -> list[str]:
 
     Raises RCLInvalidROSArgsError or UnknownROSArgsError if those cannot be read.
     """
-    return own_arguments(sys.argv if args is None else list(args)).others
+    return parse_arguments(sys.argv if args is None else list(args)).others
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
