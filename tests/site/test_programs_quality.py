@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 from program_terminal import Terminal, having
 
-OLD_NAMES = "ignore:.*RMW_QOS_POLICY.*is deprecated:UserWarning"
-
 
 def first(*programs: str) -> list[str]:
     return [f"first_steps {each}" for each in programs]
@@ -23,7 +21,6 @@ def test_a_deadline_is_missed(terminal: Terminal) -> None:
     ]
 
 
-@pytest.mark.filterwarnings(OLD_NAMES)
 def test_messages_expire(terminal: Terminal) -> None:
     printed = terminal.run(*first("lifespan 1000 4 2250"), seconds=3)
     assert having(printed, "qos_listener") == [
@@ -33,7 +30,6 @@ def test_messages_expire(terminal: Terminal) -> None:
     ]
 
 
-@pytest.mark.filterwarnings(OLD_NAMES)
 def test_a_publisher_goes_and_its_liveliness_with_it(terminal: Terminal) -> None:
     printed = terminal.run(*first("liveliness 1000"), seconds=5)
     change = (
@@ -45,7 +41,6 @@ def test_a_publisher_goes_and_its_liveliness_with_it(terminal: Terminal) -> None
     ]
 
 
-@pytest.mark.filterwarnings(OLD_NAMES)
 def test_a_publisher_no_longer_asserts_its_liveliness(terminal: Terminal) -> None:
     printed = terminal.run(*first("liveliness 1000 --policy MANUAL_BY_TOPIC --topic-assert-period 300"), seconds=5)
     assert having(printed, "Lost", "not_alive_count=1") == [

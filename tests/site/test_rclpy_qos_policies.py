@@ -47,12 +47,8 @@ def test_policies_are_known_by_number_and_by_short_key() -> None:
     assert qos.QoSHistoryPolicy is HistoryPolicy
 
 
-def test_names_of_old_releases_work_and_say_what_to_write_instead() -> None:
-    advice = (
-        r"ReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_RELIABLE is deprecated. Use ReliabilityPolicy.RELIABLE instead."
-    )
-    with pytest.warns(UserWarning, match=advice):
-        old = ReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_RELIABLE  # type: ignore[attr-defined]
+def test_names_of_old_releases_work() -> None:
+    old = ReliabilityPolicy.RMW_QOS_POLICY_RELIABILITY_RELIABLE  # type: ignore[attr-defined]
     assert old is ReliabilityPolicy.RELIABLE
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, Any
@@ -38,18 +37,6 @@ class _ShortKeys:
 
 class QoSPolicyEnum(_ShortKeys, IntEnum):
     """Base class of the policies."""
-
-
-class _OldName:
-    """A policy's name of before Foxy: it still works, and says what to write instead."""
-
-    def __init__(self, old: str, name: str) -> None:
-        self._old, self._name = old, name
-
-    def __get__(self, owner: object, kind: Any) -> Any:
-        advice = f"Use {kind.__name__}.{self._name} instead."
-        warnings.warn(f"{kind.__name__}.{self._old} is deprecated. {advice}", stacklevel=2)
-        return kind[self._name]
 
 
 class HistoryPolicy(QoSPolicyEnum):
@@ -91,7 +78,7 @@ class LivelinessPolicy(QoSPolicyEnum):
 for _kind in (HistoryPolicy, ReliabilityPolicy, DurabilityPolicy, LivelinessPolicy):
     for _policy in list(_kind):
         _old = f"RMW_QOS_POLICY_{_kind.__name__.removesuffix('Policy').upper()}_{_policy.name}"
-        setattr(_kind, _old, _OldName(_old, _policy.name))
+        setattr(_kind, _old, _policy)  # what it was called before Foxy
 
 
 class QoSPolicyKind(IntEnum):
@@ -176,11 +163,8 @@ class QoSProfile:
                 close = [key for key in keys if str(value).upper().endswith(key)]
                 text += f": try {name}={kind.__name__}.{(close or keys[1:])[0]}"
             raise AssertionError(text)
-        if name == "depth" and isinstance(value, int):
-            if value < 0:
-                raise ValueError("history depth must be greater than or equal to zero")
-            if value == 0 and self.history == HistoryPolicy.KEEP_LAST and "depth" in vars(self):
-                warnings.warn("A zero depth with KEEP_LAST doesn't make sense; no data could be stored.", stacklevel=3)
+        if name == "depth" and value < 0:
+            raise ValueError("history depth must be greater than or equal to zero")
         object.__setattr__(self, name, value)
 
     def __eq__(self, other: object) -> bool:
