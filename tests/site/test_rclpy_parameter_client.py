@@ -45,7 +45,6 @@ def client(world: World) -> AsyncParameterClient:
     world.spawn(demo, name="demo")
     rclpy.init(args=[])
     client = AsyncParameterClient(Node("asker"), "demo")
-    assert repr(client) == "<AsyncParameterClient of demo>"
     assert not client.services_are_ready()
     assert client.wait_for_services()
     return client
@@ -312,7 +311,7 @@ def test_any_text_is_a_value(text: str) -> None:
 
 
 def test_a_type_that_there_is_not() -> None:
-    with pytest.raises(RuntimeError, match="unexpected parameter type 77"):
+    with pytest.raises(ValueError, match=r"77 is not a valid Parameter\.Type"):
         parameter_value_to_python(ParameterValue(type=77))
 
 

@@ -164,10 +164,8 @@ def test_a_name_alone_is_declared_with_a_warning(node: Node, arguments: tuple) -
     with pytest.warns(UserWarning) as caught:
         node.declare_parameter(*arguments)
     assert str(caught[0].message) == (
-        "when declaring parameter named 'noval', declaring a parameter only providing its name is deprecated. You have "
-        'to either:\n\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a '
-        "descriptor).\n\t- Pass a name and a parameter type.\n\t- Pass a name and a descriptor with "
-        "`dynamic_typing=True"
+        "declaring the parameter 'noval' by its name only is deprecated: give it a default value, a Parameter.Type, or a "
+        "descriptor with dynamic_typing=True"
     )
     assert node.get_parameter("noval").value is None
     assert set_one(node, "noval", "anything") == (True, "")

@@ -95,8 +95,8 @@ def test_the_check_of_two_profiles_is_not_here() -> None:
 @pytest.mark.parametrize(
     ("policies", "reason"),
     [
-        ({"reliability": ReliabilityPolicy.UNKNOWN}, "the policy reliability of its QoS profile is UNKNOWN"),
-        ({"deadline": Duration(seconds=-1)}, "the deadline of its QoS profile is negative: -1000000000 nanoseconds"),
+        ({"reliability": ReliabilityPolicy.UNKNOWN}, "the reliability of its QoS profile is negative or UNKNOWN"),
+        ({"deadline": Duration(seconds=-1)}, "the deadline of its QoS profile is negative or UNKNOWN"),
     ],
 )
 def test_what_stands_for_no_policy_makes_no_publisher(world: World, policies: dict[str, Any], reason: str) -> None:
@@ -142,7 +142,6 @@ def test_the_graph_shows_policies_as_they_are_used(world: World) -> None:
         "  Liveliness lease duration: Infinite",
     ]
     assert "  History (Depth): KEEP_ALL\n" in str(subscription)
-    assert repr(subscription) == "<TopicEndpointInfo SUBSCRIPTION of /deep/n, std_msgs/msg/Int32>"
 
 
 def test_an_endpoint_can_be_described_by_hand() -> None:

@@ -28,8 +28,6 @@ class _SetByInit:
     """Stands on a class for an attribute that its __init__ sets. Looked up before that, it tells what was forgotten."""
 
     def __get__(self, owner: object, kind: type) -> Any:
-        if owner is None:
-            return self
         raise AttributeError(
             f"this {kind.__name__} is not a node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
         )

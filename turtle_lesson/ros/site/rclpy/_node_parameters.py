@@ -26,12 +26,6 @@ from .publisher import Publisher
 TOLERANCE = 1e-6
 """How far, relatively, a floating-point value may be off an end or a step of its range."""
 
-ONLY_A_NAME = (
-    "when declaring parameter named '{}', declaring a parameter only providing its name is deprecated. You have to "
-    'either:\n\t- Pass a name and a default value different to "PARAMETER NOT SET" (and optionally a descriptor).\n'
-    "\t- Pass a name and a parameter type.\n\t- Pass a name and a descriptor with `dynamic_typing=True"
-)
-
 
 class NodeParameters(NodeEntities):
     """Mixed into Node."""
@@ -313,7 +307,8 @@ def _read_declaration(namespace: str, details: tuple[Any, ...]) -> tuple[str, An
         raise TypeError(f"the descriptor of the parameter {name} must be a ParameterDescriptor, got {descriptor!r}")
     descriptor.name = name
     if len(details) == 1:
-        warnings.warn(ONLY_A_NAME.format(name), UserWarning, stacklevel=4)
+        advice = "give it a default value, a Parameter.Type, or a descriptor with dynamic_typing=True"
+        warnings.warn(f"declaring the parameter '{name}' by its name only is deprecated: {advice}", stacklevel=4)
         descriptor.dynamic_typing = True
     if isinstance(value, Parameter.Type):
         if descriptor.dynamic_typing or value == Parameter.Type.NOT_SET:

@@ -10,8 +10,6 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
         ("node name", node_name, node_name_flaw),
         ("node namespace", node_namespace, namespace_flaw),
     ):
-        if not isinstance(name, str):
-            raise TypeError(f"a {what} must be a str, got {name!r}")
         if (flaw := flaw_of(name)) is not None:
             raise ValueError(f"{what} '{name}' is invalid: {flaw.reason}")
     return expand(topic_name, node_name, node_namespace)

@@ -51,9 +51,7 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
     try:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
-        known = ", ".join(severity.name for severity in LoggingSeverity)
-        text = f"Failed to get severity name: '{log_severity}' is not a log level; levels are {known}"
-        raise RuntimeError(text) from None
+        raise RuntimeError(f"Failed to get severity name: '{log_severity}' is not a log level") from None
 
 
 def get_logging_directory() -> Path:

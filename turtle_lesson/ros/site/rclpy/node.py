@@ -23,7 +23,7 @@ from .callback_groups import CallbackGroup
 from .client import Client
 from .clock import Clock
 from .context import Context
-from .exceptions import NotInitializedException, RCLError
+from .exceptions import NotInitializedException
 from .executors import Executor
 from .guard_condition import GuardCondition
 from .impl.logging_severity import LoggingSeverity
@@ -269,8 +269,6 @@ for _part in (NodeEntities, NodeGraph, NodeParameters):
 
 def _names(node_name: str, namespace: str | None, remaps: list[Remap]) -> tuple[str, str]:
     """A node's name and namespace, remapped. Raises InvalidNodeNameException or InvalidNamespaceException."""
-    if node_name is None:
-        raise RCLError("error creating node: its name is None; a node needs a name, such as Node('talker')")
     namespace = namespace or "/"
     for what, given in (("name", node_name), ("namespace", namespace)):
         if not isinstance(given, str):

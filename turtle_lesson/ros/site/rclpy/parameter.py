@@ -112,11 +112,8 @@ class Parameter:
 
 
 def parameter_value_to_python(parameter_value: Any) -> Any:
-    """The Python value of an rcl_interfaces/msg/ParameterValue. Raises RuntimeError for a type that there is not."""
-    try:
-        kind = Parameter.Type(parameter_value.type)
-    except ValueError:
-        raise RuntimeError(f"unexpected parameter type {parameter_value.type}") from None
+    """The Python value of an rcl_interfaces/msg/ParameterValue. Raises ValueError for a type that there is not."""
+    kind = Parameter.Type(parameter_value.type)
     value = _value_in(parameter_value, kind)
     return list(value) if kind.name.endswith("_ARRAY") else value
 

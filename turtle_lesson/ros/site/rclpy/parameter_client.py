@@ -43,9 +43,6 @@ class AsyncParameterClient:
             for name, kind in SERVICES.items()
         }
 
-    def __repr__(self) -> str:
-        return f"<AsyncParameterClient of {self.remote_node_name}>"
-
     def services_are_ready(self) -> bool:
         """Whether all six services are there."""
         return all(client.service_is_ready() for client in self._clients.values())

@@ -185,15 +185,9 @@ class QoSProfile:
     def quality(self, what: str) -> Quality:
         """What of this profile decides about delivery. Raises RCLError if no publisher or subscription (`what`) can have it."""
         policies = vars(self)
-        unknown = [name for name in _MEANT if policies[name].name == "UNKNOWN"]
-        past = [name for name, value in policies.items() if isinstance(value, Duration) and value.nanoseconds < 0]
-        if unknown:
-            reason = f"the policy {unknown[0]} of its QoS profile is UNKNOWN, which stands for none: choose one"
-            raise RCLError(f"Failed to create {what}: {reason}")
-        if past:
-            raise RCLError(
-                f"Failed to create {what}: the {past[0]} of its QoS profile is negative: {policies[past[0]]}"
-            )
+        for name, value in policies.items():
+            if value.nanoseconds < 0 if isinstance(value, Duration) else getattr(value, "name", "") == "UNKNOWN":
+                raise RCLError(f"Failed to create {what}: the {name} of its QoS profile is negative or UNKNOWN")
         keep_all = policies["history"] == HistoryPolicy.KEEP_ALL
         return Quality(
             depth=None if keep_all else max(1, policies["depth"]),

@@ -52,7 +52,3 @@ class TopicEndpointInfo:
                 f"  Liveliness lease duration: {profile.liveliness_lease_duration}",
             ]
         )
-
-    def __repr__(self) -> str:
-        full_name = f"{self.node_namespace.rstrip('/')}/{self.node_name}"
-        return f"<TopicEndpointInfo {self.endpoint_type.name} of {full_name}, {self.topic_type}>"
