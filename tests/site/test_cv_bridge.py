@@ -105,9 +105,7 @@ def test_compressed_images_need_opencv(monkeypatch: pytest.MonkeyPatch) -> None:
         lambda: BRIDGE.compressed_imgmsg_to_cv2(CompressedImage()),
         lambda: BRIDGE.cv2_to_compressed_imgmsg(RGB),
     ):
-        with pytest.raises(
-            ImportError, match="compressed images need OpenCV, which is not installed: pip install opencv-"
-        ):
+        with pytest.raises(ImportError, match="cv2"):
             call()
 
 

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import importlib
 import re
-import sys
 from array import array
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -46,9 +44,7 @@ class CvBridge:
         dtype = kind.newbyteorder(">" if img_msg.is_bigendian else "<")
         columns = img_msg.step // (dtype.itemsize * channels) or img_msg.width
         shape = (img_msg.height, columns, channels) if channels > 1 else (img_msg.height, columns)
-        image: Array = np.ndarray(shape, dtype, img_msg.data)[:, : img_msg.width]
-        if img_msg.is_bigendian == (sys.byteorder == "little"):
-            image = image.astype(dtype.newbyteorder("="))
+        image: Array = np.ndarray(shape, dtype, img_msg.data)[:, : img_msg.width].astype(kind)
         return image if desired_encoding == "passthrough" else _converted(image, img_msg.encoding, desired_encoding)
 
     def cv2_to_imgmsg(self, cvim: Array, encoding: str = "passthrough", header: Header | None = None) -> Image:
@@ -56,7 +52,8 @@ class CvBridge:
 
         Raises TypeError if the image is no array, and CvBridgeError if the array's type cannot be that of the encoding.
         """
-        _check_array(cvim)
+        if not isinstance(cvim, np.ndarray):
+            raise TypeError("Your input type is not a numpy array")
         height, width, *rest = cvim.shape
         depth = next((depth for depth, name in TYPES.items() if name == cvim.dtype.name), None)
         if depth is None:
@@ -74,28 +71,14 @@ class CvBridge:
 
     def compressed_imgmsg_to_cv2(self, cmprs_img_msg: CompressedImage, desired_encoding: str = "passthrough") -> Array:
         """The image of a compressed message. Raises ImportError if OpenCV is not installed."""
-        cv2 = _opencv()
+        cv2 = importlib.import_module("cv2")
         image: Array = cv2.imdecode(np.frombuffer(cmprs_img_msg.data, np.uint8), cv2.IMREAD_UNCHANGED)
         return image if desired_encoding == "passthrough" else _converted(image, "bgr8", desired_encoding)
 
     def cv2_to_compressed_imgmsg(self, cvim: Array, dst_format: str = "jpg") -> CompressedImage:
-        """The compressed message for an array; TypeError for what is none, ImportError if OpenCV is not installed."""
-        _check_array(cvim)
-        data = _opencv().imencode(f".{dst_format}", cvim)[1]
+        """The compressed message for an array. Raises ImportError if OpenCV is not installed."""
+        data = importlib.import_module("cv2").imencode(f".{dst_format}", cvim)[1]
         return CompressedImage(format=dst_format, data=array("B", data.tobytes()))
-
-
-def _check_array(image: object) -> None:
-    if not isinstance(image, np.ndarray):
-        raise TypeError("Your input type is not a numpy array")
-
-
-def _opencv() -> ModuleType:
-    try:
-        return importlib.import_module("cv2")
-    except ImportError:
-        install = "pip install opencv-python (in a notebook: %pip install opencv-python)"
-        raise ImportError(f"compressed images need OpenCV, which is not installed: {install}", name="cv2") from None
 
 
 def _layout(encoding: str) -> tuple[np.dtype[Any], int, str]:
