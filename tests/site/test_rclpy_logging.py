@@ -149,7 +149,7 @@ def test_options_are_checked(world: World) -> None:
     assert text.startswith('parameter "throtle_duration_sec" is not one of the recognized logging options')
     assert text.endswith("did you mean 'throttle_duration_sec'?")
     text = message_of(TypeError, lambda: logger.info("x", throttle_duration_sec="1"))
-    assert text == "throttle_duration_sec is a number of seconds, got '1'"
+    assert text.startswith("throttle_duration_sec is a number of seconds, and") and text.endswith("_sec': '1'}")
 
 
 def test_one_line_of_a_program_keeps_to_its_severity_and_options(run: Run, capsys: Capture) -> None:
@@ -168,12 +168,7 @@ def test_one_line_of_a_program_keeps_to_its_severity_and_options(run: Run, capsy
         except ValueError as error:
             found.append(str(error))
 
-    assert run(program) == [
-        "Logger severity cannot be changed between calls.",
-        "Logger name cannot be changed between calls.",
-        "Requested logging filters cannot be changed between calls.",
-        "Logging filter parameters cannot be changed between calls.",
-    ]
+    assert run(program) == ["Logger severity, name and filters cannot be changed between calls."] * 4
     assert [line.rpartition(": ")[2] for line in capsys.readouterr().err.splitlines()] == [
         "moving",
         "filtered",
@@ -421,12 +416,14 @@ def test_throttling_may_go_by_a_clock_of_ones_own(run: Run, capsys: Capture) -> 
         (
             {"throttle_time_source_type": object},
             TypeError,
-            "throttle_duration_sec is a number of seconds, got None",
+            "throttle_duration_sec is a number of seconds, and throttle_time_source_type a clock such as node.get_clock(), "
+            "got {'throttle_time_source_type': <class 'object'>}",
         ),
         (
             {"throttle_time_source_type": "RCUTILS_STEADY_TIME", "throttle_duration_sec": 1.0},
-            ValueError,
-            'Received throttle_time_source_type of "RCUTILS_STEADY_TIME" is not a clock instance: hand over node.get_clock()',
+            TypeError,
+            "throttle_duration_sec is a number of seconds, and throttle_time_source_type a clock such as node.get_clock(), "
+            "got {'throttle_time_source_type': 'RCUTILS_STEADY_TIME', 'throttle_duration_sec': 1.0}",
         ),
     ],
 )

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy.clock import ROSClock
 from rclpy.duration import Duration
-from rclpy.logging import LoggingSeverity, get_logger
+from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.time import Time
 
@@ -133,12 +133,8 @@ def stamp_of(msg: Any, allow_headerless: bool, logger: str) -> Time | None:
         return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)
     if allow_headerless:
         return ROSClock().now()
-    log = get_logger(logger)
-    log.set_level(LoggingSeverity.INFO)
-    log.warning(
-        f"a {type(msg).__name__} has no header with a stamp, so it is left out; with allow_headerless=True it is given the "
-        "time at which it comes"
-    )
+    text = "has no header with a stamp, so it is left out; with allow_headerless=True it counts as of when it comes"
+    get_logger(logger).warning(f"a {type(msg).__name__} {text}")
     return None
 
 

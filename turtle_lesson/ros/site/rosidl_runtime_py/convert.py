@@ -91,7 +91,7 @@ def _plain(value: Any, type_: Any, style: _Style) -> Any:
             return value if short else value[: style.length] + b"..."
         return _cut("".join(map(chr, value)), style)
     if isinstance(value, str):
-        return _text(value, style)
+        return f"<string length: <{len(value)}>>" if style.no_str else _cut(value, style)
     if isinstance(value, (list, tuple, array.array)) or type(value).__name__ == "ndarray":
         if style.no_arr and type_ is not None:
             return _array_info(value, type_)
@@ -114,10 +114,6 @@ def _csv(value: Any) -> str:
             result += "," * bool(result) + _csv(each)  # like the real one, without a comma behind an empty beginning
         return result
     return ",".join(map(_csv, value)) if isinstance(value, (list, tuple)) else str(value)
-
-
-def _text(value: str, style: _Style) -> str:
-    return f"<string length: <{len(value)}>>" if style.no_str else _cut(value, style)
 
 
 def _cut(value: str, style: _Style) -> str:

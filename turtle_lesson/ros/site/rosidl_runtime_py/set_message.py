@@ -6,7 +6,6 @@ The rules and sentences are those of rosidl_runtime_py/set_message.py, pinned by
 from __future__ import annotations
 
 import array
-import warnings
 from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import dataclass, field
@@ -82,9 +81,7 @@ class _Filling:
         if kind.__module__ == "numpy":
             import numpy
 
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                return numpy.array(value, dtype=now.dtype)
+            return numpy.array(value, dtype=now.dtype)
         if type(value) is kind:
             return value
         if kind is bytes and isinstance(value, int):

@@ -142,12 +142,11 @@ def _filters_of(options: dict[str, Any]) -> dict[str, Any]:
             raise TypeError(f'parameter "{name}" is not one of the recognized logging options "{list(FILTERS)}"{hint}')
     found = {name: options[name] for name in FILTERS if options.get(name)}
     pause, clock = found.get("throttle_duration_sec", 0), found.get("throttle_time_source_type")
-    if not isinstance(pause, (int, float)) or (clock and "throttle_duration_sec" not in options):
-        raise TypeError(f"throttle_duration_sec is a number of seconds, got {options.get('throttle_duration_sec')!r}")
-    if clock and not hasattr(clock, "_now"):
-        raise ValueError(
-            f'Received throttle_time_source_type of "{clock}" is not a clock instance: hand over node.get_clock()'
-        )
+    if not isinstance(pause, (int, float)) or (
+        clock and not ("throttle_duration_sec" in options and hasattr(clock, "_now"))
+    ):
+        what = "throttle_duration_sec is a number of seconds, and throttle_time_source_type a clock such as node.get_clock()"
+        raise TypeError(f"{what}, got {options!r}")
     return found
 
 
@@ -167,15 +166,8 @@ class CallSite:
 
     def check(self, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> None:
         """Raise ValueError if the same line of a program is used in another way than before."""
-        filters = _filters_of(options)
-        for what, before, now in (
-            ("Logger severity", self.severity, severity),
-            ("Logger name", self.name, name),
-            ("Requested logging filters", list(self.filters), list(filters)),
-            ("Logging filter parameters", self.filters, filters),
-        ):
-            if now != before:
-                raise ValueError(f"{what} cannot be changed between calls.")
+        if (severity, name, _filters_of(options)) != (self.severity, self.name, self.filters):
+            raise ValueError("Logger severity, name and filters cannot be changed between calls.")
 
     def lets_through(self) -> bool:
         """Whether this call is to be printed: the first filter that holds it back ends the question."""
