@@ -1,18 +1,17 @@
 """Commands among Python: which lines of a notebook's cell are meant for the terminal.
 
 A statement that begins with `ros2`, `colcon`, `source`, `mkdir`, `cd` or their kin and is no Python is replaced by a call that
-runs it, so that commands may stand anywhere: between Python statements, indented in an `if` or a loop, behind `if x:` or `;`,
-several in one cell. What could be Python (`ros2 -h` is a subtraction) counts as Python if the name is a variable. Words that
+runs it, so that commands may stand on any line: between Python statements, indented in an `if` or a loop, several in one cell.
+What could be Python (`ros2 -h` is a subtraction) counts as Python if the name is a variable. Words that
 are less plainly a command (`echo`, `git`, `python3`) are taken for one only where Python could make nothing of the statement.
 """
 
 from __future__ import annotations
 
-import ast
+import codeop
 import difflib
 import re
 import shutil
-import textwrap
 import warnings
 from bisect import bisect_left
 from collections.abc import Container, Iterator, Sequence
@@ -88,9 +87,6 @@ OWN_MAGICS = ("ros2", "colcon", "source")
 
 MAGIC = "terminal"
 
-LONGEST = 1000
-"""How far into a line a command behind other statements is looked for."""
-
 _FIRST = re.compile(
     r"(?P<indent>[ \t]*)(?P<sign>%|!\s*|\$\s+)?(?P<word>[A-Za-z][\w-]*|\.(?=[ \t])|\.{1,2}/[\w./-]+)"
     r"(?![\w(\[.,?:\])}])(?P<rest>.*)",
@@ -99,7 +95,7 @@ _FIRST = re.compile(
 _PYTHON_NEXT = re.compile(r"\s*(?:[-+*/%&|^@]|//|\*\*|<<|>>|[=!<>]|:)?=|\s+(?:in|is|if|and|or|not|for)\b\s")
 _VARIABLE = re.compile(r"[A-Za-z_]\w*=\S*[ \t]+(?:\S+[ \t]+)*?(?:ros2|colcon|python3)[ \t]")
 _DEEPER = {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}
-_PIECE = re.compile(r"""#|(?P<bracket>[()\[\]{}])|(?P<end>[;:])|(?P<backslash>\\)\s*\Z|(?P<string>\'{3}|"{3}|'|")""")
+_PIECE = re.compile(r"""#|(?P<bracket>[()\[\]{}])|(?P<backslash>\\)\s*\Z|(?P<string>\'{3}|"{3}|'|")""")
 _STRING_ENDS = {quote: re.compile(rf"(?:\\.|[^\\])*?{quote}", re.DOTALL) for quote in ("'''", '"""', "'", '"')}
 
 
@@ -112,17 +108,16 @@ def translate(lines: list[str], variables: Container[str] = ()) -> list[str]:
     translated: list[str] = []
     at = 0
     while at < len(lines):
-        columns = [0] if lines[at].lstrip().startswith(("%", "!")) else [0, *inner_places(lines[at])]
-        found = next(filter(None, (_command(cell, at, each) for each in columns)), None)
-        end = cell.statement_end(at) if found is None else cell.script_end(at, found.start())
+        found = _command(cell, at)
+        end = cell.statement_end(at) if found is None else cell.script_end(at)
         translated += lines[at:end] if found is None else _call(lines[at:end], found)
         at = end
     return translated
 
 
-def _command(cell: _Cell, at: int, column: int) -> re.Match[str] | None:
-    """What begins at this column of a line, if it is meant for the terminal."""
-    found = _FIRST.match(cell.lines[at], column)
+def _command(cell: _Cell, at: int) -> re.Match[str] | None:
+    """What a line begins with, if it is meant for the terminal."""
+    found = _FIRST.match(cell.lines[at])
     if found is None:
         return None
     sign, word, rest = (found["sign"] or "").strip(), found["word"], found["rest"]
@@ -131,40 +126,26 @@ def _command(cell: _Cell, at: int, column: int) -> re.Match[str] | None:
     elif sign == "$" or "/" in word:  # no statement of Python begins with ./
         is_command = True
     elif _VARIABLE.match(word + rest):
-        is_command = not _is_python(cell.statement(at, column))
+        is_command = not _is_python(word + rest)
     elif _PYTHON_NEXT.match(rest):
         is_command = False
     elif word in COMMANDS or word == ".":
-        is_command = not cell.has(word) or not _is_python(cell.statement(at, column))
+        is_command = not cell.has(word) or not _is_python(word + rest)
     elif not rest.strip():
         is_command = word in NEVER_PYTHON and not cell.has(word)
     else:
         known = word in UNSURE or difflib.get_close_matches(word, ("ros2", "colcon"), 1, 0.75)
-        is_command = bool(known) and not _is_python(cell.statement(at, column))
+        is_command = bool(known) and not _is_python(word + rest)
     return found if is_command else None
 
 
-def inner_places(line: str) -> Iterator[int]:
-    """Where in a line another statement may begin: behind `;`, and behind the `:` of `if x:`."""
-    depth = 0
-    for kind, sign, place in _pieces(line, ""):
-        depth += _DEEPER.get(sign, 0) if kind == "bracket" else 0
-        if kind != "end" or depth != 0 or place > LONGEST:
-            continue
-        found = _FIRST.match(line, place)
-        known = found is not None and (found["sign"] or found["word"] in UNSURE or found["word"] in (*COMMANDS, "."))
-        head = line[:place].strip() + (" pass" if sign == ":" else "")
-        # An `else` or an `except` has more before it.
-        if known and any(_is_python(before + head) for before in ("", "if 1: pass\n", "try: pass\n")):
-            yield place
-
-
-def _is_python(statement: str) -> bool:
+def _is_python(line: str) -> bool:
+    """Whether a line is a statement of Python, or begins one."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            ast.parse(textwrap.dedent(statement).lstrip(" \t"))
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+            codeop.compile_command(line.rstrip("\\ \t\r\n"))
+    except (SyntaxError, ValueError, OverflowError, RecursionError, MemoryError):
         return False
     return True
 
@@ -186,9 +167,6 @@ class _Cell:
         self._begins = [0, *accumulate(map(len, lines))]
         self._variables = variables
         self._known: dict[str, bool] = {}
-        self._ends: dict[int, int] = {}
-        # The line at whose end a string is open that is never closed, by its quote.
-        self._endless: dict[str, int] = {}
 
     def has(self, word: str) -> bool:
         """Whether a word is a variable, of the notebook or of this cell."""
@@ -201,66 +179,40 @@ class _Cell:
             )
         return self._known[word]
 
-    def script_end(self, at: int, column: int) -> int:
+    def script_end(self, at: int) -> int:
         """The line behind a command, which goes on while a quote is open or its line ends in a backslash."""
         try:
-            end = command_end(self._text, self._begins[at] + column)
+            end = command_end(self._text, self._begins[at])
         except UnfinishedError:
             return at + 1
         return bisect_left(self._begins, end)
 
-    def statement(self, at: int, column: int) -> str:
-        """The Python statement that begins here."""
-        return "".join([self.lines[at][column:], *self.lines[at + 1 : self.statement_end(at)]])
-
     def statement_end(self, at: int) -> int:
-        """The line behind the Python statement that begins here: brackets and long strings hold it together.
-
-        One with a bracket or a string that is never closed ends with its first line.
-        """
+        """The line behind the Python statement that begins here: brackets, long strings and backslashes hold it together."""
         if self.lines[at].lstrip().startswith(("%", "!")):
             ends = range(at + 1, len(self.lines))
             return next((end for end in ends if not self.lines[end - 1].rstrip("\n").endswith("\\")), len(self.lines))
-        if at not in self._ends:
-            self._read_statement(at)
-        return self._ends[at]
-
-    def _read_statement(self, at: int) -> None:
-        """Read to the end of a statement, or of the cell; note where those end that begin in the lines on the way."""
-        begun: list[int] = []  # the line of each statement whose end is not known yet
-        opened: list[int] = []  # the line of each bracket that is open
-        string, since = "", at
+        depth, string = 0, ""
         for line in range(at, len(self.lines)):
-            begun += [] if string else [line]
-            kind = text = ""
-            for kind, text, _ in _pieces(self.lines[line], string):
-                if kind == "bracket" and _DEEPER[text] > 0:
-                    opened.append(line)
-                elif kind == "bracket" and opened:
-                    opened.pop()
-            before, string = string, text if kind == "open string" else ""
-            since = since if string == before else line
-            # A statement ends here if all brackets that are still open were opened before it.
-            while begun and not (opened and opened[-1] >= begun[-1]) and kind not in ("open string", "backslash"):
-                self._ends[begun.pop()] = line + 1
-            if not begun or line >= self._endless.get(string, len(self.lines)):
-                break
-        if string:
-            self._endless[string] = min(since, self._endless.get(string, since))
-        for line in begun:
-            closed = not string and not (opened and opened[-1] >= line)
-            self._ends[line] = len(self.lines) if closed else line + 1
+            pieces = [("", ""), *_pieces(self.lines[line], string)]
+            for _, text in pieces:
+                depth = max(0, depth + _DEEPER.get(text, 0))
+            kind, text = pieces[-1]
+            string = text if kind == "open string" else ""
+            if not depth and kind not in ("open string", "backslash"):
+                return line + 1
+        return len(self.lines)
 
 
-def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:
-    """What holds a line's statement together or ends it: kind, text, and the place behind it; `string` is open already."""
+def _pieces(line: str, string: str) -> Iterator[tuple[str, str]]:
+    """What holds a line's statement together, as kind and text; `string` is open already."""
     at = 0
     while True:
         if string:
             closed = _STRING_ENDS[string].match(line, at)
             if closed is None:
                 if len(string) == 3 or line.rstrip("\n").endswith("\\"):
-                    yield "open string", string, len(line)
+                    yield "open string", string
                 return
             at = closed.end()
         found = _PIECE.search(line, at)
@@ -268,4 +220,4 @@ def _pieces(line: str, string: str) -> Iterator[tuple[str, str, int]]:
             return
         at, string = found.end(), found["string"] or ""
         if not string and found.lastgroup:
-            yield found.lastgroup, found[found.lastgroup], at
+            yield found.lastgroup, found[found.lastgroup]

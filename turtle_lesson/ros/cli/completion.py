@@ -17,7 +17,7 @@ from .. import launching
 from ..idl.names import is_hidden
 from ..idl.registry import registry
 from ..runtime.world import current_world
-from .cells import COMMANDS, inner_places
+from .cells import COMMANDS
 from .group_pkg import package_names
 from .jobs import jobs
 from .run_command import GROUPS
@@ -141,10 +141,9 @@ def command_matcher(context: CompletionContext) -> SimpleMatcherResult:
     above = context.full_text.split("\n")[: context.cursor_line]
     text = "\n".join([*above, context.text_until_cursor.rpartition("\n")[2]])
     line = re.sub(r"\\\n\s*", " ", text).rpartition("\n")[2]
-    command = next((line[at:] for at in (0, *inner_places(line)) if _COMMAND.match(line[at:])), None)
-    if command is None:
+    if not _COMMAND.match(line):
         return {"completions": []}
-    command = command.strip(" \t%").removeprefix("terminal ") + " " * command[-1:].isspace()
+    command = line.strip(" \t%").removeprefix("terminal ") + " " * line[-1:].isspace()
     begun = "" if command[-1:].isspace() else command.split()[-1]
     found = [SimpleCompletion(text=word, type="command") for word in complete(current_world(), command)]
     return {"completions": found, "suppress": True, "matched_fragment": begun}
