@@ -188,11 +188,6 @@ print(repr(kept.getvalue()))
     assert run(cell) == run(cell) == repr("/turtlesim\n" * 2) + "\n"
 
 
-def test_a_text_is_written_to_a_file_as_in_a_terminal(run: Run) -> None:
-    out = run('x = 1\nif x:\n    cat > a.txt <<EOF\n"x": ros2 {x}\n  ros2 node list\nEOF\n    cat a.txt\n')
-    assert out == '"x": ros2 {x}\n  ros2 node list\n'
-
-
 def test_words_of_other_terminals_in_a_cell(
     run: Run, ipython: InteractiveShell, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -410,7 +405,6 @@ ENDLESS = [
     "echo (",
     "echo it's",
     "echo '",
-    "cat <<END",
     'ls \\"""',
     '\\"""',
     'x = """ ' + "'''",

@@ -60,7 +60,6 @@ def type_lines(empty_terminal: Terminal) -> Type:
     [
         "echo -e '1\\n2.5' | python3 program.py",
         "python3 program.py < lines.txt",
-        "python3 program.py <<END\n1\n2.5\nEND",
         "cat lines.txt | python3 program.py",
     ],
 )

@@ -100,7 +100,7 @@ def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
     found = []
     for sign, pipeline in plan:
         command = pipeline[0]
-        if len(pipeline) > 1 or command.redirections or command.given or command.background:
+        if len(pipeline) > 1 or command.redirections or command.background:
             raise NotHereError(
                 f"the command {text!r}",
                 "it uses '|', '>' or '&', which launched commands cannot use here",

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 # between double quotes stay as they are typed, so that `"{x: 5.0}"` needs no care.
 
 _BETWEEN = re.compile(r"(?:[ \t\r]|\\[ \t]*\n|#[^\n]*)*")
-_HERE = re.compile(r"<<-?[ \t]*(['\"]?)(\w+)\1")
 _OPERATOR = re.compile(r"&&|\|\||>>|2>&1|&>|2>|[;&|><\n]")
 _PIECE = re.compile(
     r"""(?P<plain>[^ \t\r\n;&|<>'"\\]+)|'(?P<single>[^']*)'|"(?P<double>(?:[^"\\]|\\.)*)"
@@ -41,7 +40,7 @@ class ShellSyntaxError(ValueError):
 
 
 class UnfinishedError(ShellSyntaxError):
-    """A quote or a `<<END` is never closed, or the line ends in a backslash."""
+    """A quote is never closed, or the line ends in a backslash."""
 
 
 @dataclass(frozen=True)
@@ -56,15 +55,11 @@ class Operator(str):
     """A sign such as `&&`."""
 
 
-class HereText(str):
-    """The lines between `<<END` and END, which a command is given to read."""
-
-
 class BackslashAtEndError(UnfinishedError):
     """The last line ends in a backslash."""
 
 
-Token = Word | Operator | HereText
+Token = Word | Operator
 
 
 def tokens(text: str) -> list[Token]:
@@ -75,38 +70,35 @@ def tokens(text: str) -> list[Token]:
 def command_end(text: str, at: int = 0) -> int:
     """The place behind the command that begins at a place of a text, and behind its line's end.
 
-    It goes on in the next line while a quote or a `<<END` is open, and behind a backslash, `&&`, `||` or `|`; where such
-    a thing is the last one, the command takes all that is left.
+    It goes on in the next line while a quote is open, and behind a backslash, `&&`, `||` or `|`; where such a thing is the
+    last one, the command takes all that is left.
 
-    Raises UnfinishedError if a quote or a `<<END` is never closed.
+    Raises UnfinishedError if a quote is never closed.
     """
     before: Token | None = None
     with contextlib.suppress(BackslashAtEndError):
-        for token, left in _scan(text, at):
-            if isinstance(token, HereText) or token != "\n":
+        for token, end in _scan(text, at):
+            if token != "\n":
                 before = token
             elif before not in ("&&", "||", "|"):
-                return len(text) - left
+                return end
     return len(text)
 
 
 def _scan(text: str, at: int = 0) -> Iterator[tuple[Token, int]]:
-    """The tokens from a place on, each with how many characters come after it."""
+    """The tokens from a place on, each with the place behind it."""
     token: Token
     while True:
         between = _BETWEEN.match(text, at)
         at = between.end() if between else at
         if at == len(text):
             return
-        if here := _HERE.match(text, at):
-            at = here.end()
-            token, text = _here_text(here)
-        elif sign := _OPERATOR.match(text, at):
+        if sign := _OPERATOR.match(text, at):
             at = sign.end()
             token = Operator(sign[0])
         else:
             token, at = _word(text, at)
-        yield token, len(text) - at
+        yield token, at
 
 
 def _word(text: str, at: int) -> tuple[Word, int]:
@@ -130,27 +122,14 @@ def _word(text: str, at: int) -> tuple[Word, int]:
     return Word(plain, pattern), at
 
 
-def _here_text(sign: re.Match[str]) -> tuple[HereText, str]:
-    """The lines up to the closing word, and the whole text without them, so that what follows the sign is read next."""
-    text = sign.string
-    begin = text.find("\n", sign.end()) + 1
-    tabs = "\t*" if sign[0].startswith("<<-") else ""
-    closing = re.compile(rf"^{tabs}{sign[2]}[ \t\r]*$", re.MULTILINE).search(text, begin) if begin else None
-    if closing is None:
-        raise UnfinishedError(f"{sign[0]!r} is never closed: write {sign[2]} alone on a line where the text ends")
-    inside = text[begin : closing.start()]
-    return HereText(re.sub(r"(?m)^\t+", "", inside) if tabs else inside), text[: begin - 1] + text[closing.end() :]
-
-
 # -- pipelines -------------------------------------------------------------------------------------------------------
 
 
 @dataclass
 class Command:
-    """One simple command: its words, the text that it is given to read, and signs such as `>`, each with its file."""
+    """One simple command: its words, and signs such as `>`, each with its file."""
 
     words: list[Word] = field(default_factory=list)
-    given: str | None = None
     redirections: list[tuple[Operator, Word]] = field(default_factory=list)
     background: bool = False
 
@@ -163,8 +142,6 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
         command = pipeline[-1]
         if isinstance(token, Word):
             command.words.append(token)
-        elif isinstance(token, HereText):
-            command.given = token
         elif token in {"<", ">", ">>", "2>", "&>", "2>&1"}:
             file = Word("&1", "&1") if token == "2>&1" else next(rest)
             if not isinstance(file, Word):

@@ -92,7 +92,7 @@ class Shell:
             given, code = None, 0
             for command in pipeline:
                 target = out if command is pipeline[-1] else io.StringIO()
-                code = self._one(command, given if command.given is None else command.given, target, error)
+                code = self._one(command, given, target, error)
                 given = target.getvalue() if target is not out else None
             self._last.exit_code = code
         return self.exit_code
