@@ -263,16 +263,7 @@ def test_a_folder_of_nearly_the_right_name_is_named(type_line) -> None:  # type:
     assert "Did you mean 'turtle_ws'?" in type_line("mkdir turtle_ws; cd turtel_ws")[2]
 
 
-# -- files of commands -------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("line", ["bash drive.sh", "sh drive.sh", "source drive.sh", ". ./drive.sh", "./drive.sh"])
-def test_a_file_of_commands_runs_line_by_line_in_robot_time(type_line, world: World, line: str) -> None:  # type: ignore[no-untyped-def]
-    Path("drive.sh").write_text("#!/bin/bash\n# two turtles\necho first\nsleep 2.5\n\necho second && cd /\n")
-    assert type_line(f"chmod +x drive.sh; {line} > said.txt") == (0, "", "")
-    assert Path("/" if line[:2] in ("so", ". ") else ".").samefile(Path.cwd())
-    assert type_line("cd -; cat said.txt")[1].endswith("first\nsecond\n")
-    assert world.now == 2_500_000_000
+# -- programs by their name --------------------------------------------------------------------------------------------------
 
 
 def test_a_program_is_run_by_its_first_line(type_line, world: World) -> None:  # type: ignore[no-untyped-def]
@@ -283,16 +274,6 @@ def test_a_program_is_run_by_its_first_line(type_line, world: World) -> None:  #
     type_line("chmod +x draw.py; ./draw.py circle")
     world.sim.run_until(1)
     assert type_line("./draw.py square")[1].startswith("['square']")
-
-
-@pytest.mark.parametrize(
-    "commands", ["for i in 1 2; do\n  echo $i\ndone", "if true; then echo a; fi", "echo $1", "go() {\n}"]
-)
-def test_a_file_of_more_than_commands_is_refused_before_it_begins(type_line, commands: str) -> None:  # type: ignore[no-untyped-def]
-    Path("loop.sh").write_text(f"echo begins\n{commands}\n")
-    code, out, error = type_line("bash loop.sh")
-    assert (code, out) == (1, "")
-    assert error.startswith("bash: loop.sh: line 2: this simulated terminal runs commands one after the other")
 
 
 # -- ros2 ------------------------------------------------------------------------------------------------------------------

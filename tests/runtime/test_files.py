@@ -124,7 +124,6 @@ def make(place: Path) -> Path:
         (place / file).parent.mkdir(parents=True, exist_ok=True)
         (place / file).write_text(f"{file}\n")
     (place / "outside/install/.colcon_install_layout").write_text("isolated\n")
-    (place / "mine/go.sh").write_text("cd ..\necho x > outside/kept.txt\nrm -rf outside\n")
     for link, target in LINKS.items():
         (place / "mine" / link).symlink_to(target.replace("ABOVE", str(place)))
     return place / "mine"
@@ -203,8 +202,6 @@ OUTSIDE = [
     "touch ../new",
     "chmod +x to_file",
     "chmod +x ../outside/kept.txt",
-    "source go.sh",
-    "bash go.sh",
     "ros2 pkg create new --destination-directory ..",
     "ros2 pkg create new --destination-directory to_folder",
     "ros2 bag record -a -o ../new --for 0.1",
@@ -478,7 +475,7 @@ LINES = [
     "rm {0}", "rm -rf {0}", "rm -r {0} {1}", "mv {0} {1}", "mv {0} {1} {2}", "cp {0} {1}", "cp -r {0} {1}", "mkdir {0}",
     "mkdir -p {0}", "touch {0}", "chmod +x {0}", "echo x > {0}", "echo x >> {0}", "ls nope 2> {0}", "ls &> {0}",
     "cat < {0} > {1}", "echo x | cat > {0}", "cd {0}", "cd {0}", "cd -", "cd", "export OUT={0}", "export HOME={0}",
-    "OUT={0} rm -r {1}", "export TURTLE_LESSON_OPENED=/ TURTLE_LESSON_FOLDER=/", "bash {0}/go.sh", "source go.sh",
+    "OUT={0} rm -r {1}", "export TURTLE_LESSON_OPENED=/ TURTLE_LESSON_FOLDER=/",
     "source {0}/setup.bash", "ros2 pkg create new_pkg --destination-directory {0}", "ros2 pkg create {0}",
     "ros2 bag record -a -o {0} --for 0.1", "ros2 bag record -a -s sqlite3 -o {0} --for 0.1",
     "ros2 bag record -a -o {0} &", "kill -INT %1", "ros2 topic pub /x std_msgs/msg/Int32 > {0} &", "sleep 1",

@@ -30,7 +30,7 @@ _ROS_1 = {
 
 _BY_ADVICE = {
     "nothing needs to be installed here: ROS 2 is simulated": "apt apt-get rosdep sudo",
-    "type commands into the cell, as in a terminal; bash FILE runs the commands in a file that is here": "bash sh",
+    "type commands into the cell, as in a terminal; files of commands are not run here": "bash sh",
     "JupyterLab's menu Edit clears the outputs of cells": "clear",
     "colcon build does that, from a package's CMakeLists.txt": "cmake make",
     "no editor here: open the file in JupyterLab's list at the left, or begin a cell with %%writefile FILE": (

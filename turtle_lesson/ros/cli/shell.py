@@ -1,13 +1,12 @@
 r"""A small terminal: a line or a script becomes commands, which run one after the other.
 
 Quotes, `\` at a line's end, comments, `&&`, `||`, `;`, a trailing `&`, `| grep`, `< file`, `> file` and patterns such as
-`*.msg` work as in bash, and so do files of commands. The current folder is the notebook's; `~` is the folder in which the
+`*.msg` work as in bash. The current folder is the notebook's; `~` is the folder in which the
 notebook began. Which files a command may change, `files.check` decides.
 """
 
 from __future__ import annotations
 
-import contextlib
 import io
 import os
 import re
@@ -30,7 +29,6 @@ from .script import (
     Command,
     ShellSyntaxError,
     Word,
-    commands_in,
     expand,
     pipelines,
     run_script,
@@ -141,9 +139,6 @@ class Shell:
         name = words[0]
         if name == "ros2":
             return run_ros2(self.world, words, stdin=given, stdout=out, stderr=error, background=background)
-        if (script := commands_in(words)) is not None:
-            with contextlib.nullcontext() if name in {"source", "."} else contextlib.chdir("."):
-                return self.run(script, out, error)
         if name in {"colcon", "source", "."}:
             from ..ament import source
             from . import colcon
