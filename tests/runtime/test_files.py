@@ -183,7 +183,7 @@ OUTSIDE = [
     "echo x > to_new",
     "ls nope 2> to_folder/new",
     "ls &> inner/chain/new",
-    "cat a | sort > '../new'",
+    "cat a | head > '../new'",
     "cp a ../outside",
     "cp a to_file",
     "cp a to_folder",

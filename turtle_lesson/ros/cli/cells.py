@@ -50,7 +50,7 @@ _HERE = {word: advice for advice, words in _BY_ADVICE.items() for word in words.
 
 _ON_THE_COMPUTER = frozenset((
     "awk", "curl", "date", "df", "diff", "docker", "du", "find", "git", "htop", "less", "man", "more", "ping", "ps", "sed",
-    "ssh", "tar", "tee", "top", "tree", "unzip", "wget", "which", "whoami",
+    "sort", "ssh", "tail", "tar", "tee", "top", "tree", "unzip", "wget", "which", "whoami",
 ))  # fmt: skip
 
 ELSEWHERE = frozenset({*_ROS_1, *_HERE, *_ON_THE_COMPUTER})
@@ -78,7 +78,7 @@ COMMANDS = ("ros2", "colcon", "source", "mkdir", "cd", "ls", "pwd", "cat", "touc
 """Words that are a command unless they are a variable."""
 
 UNSURE = ELSEWHERE | {
-    "chmod", "cp", "echo", "export", "grep", "head", "mv", "printenv", "rm", "sleep", "sort", "tail", "unset", "wc",
+    "chmod", "cp", "echo", "export", "grep", "head", "mv", "printenv", "rm", "sleep", "unset", "wc",
 }  # fmt: skip
 """Words that are a command where the statement is no Python."""
 

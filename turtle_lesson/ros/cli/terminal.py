@@ -203,18 +203,6 @@ def grep(terminal: Terminal, words: list[str]) -> int:
 
 def head(terminal: Terminal, words: list[str]) -> int:
     """`… | head [-n number]`: the first lines."""
-    count, lines = _counted(terminal, words)
-    return terminal.say(*lines[:count])
-
-
-def tail(terminal: Terminal, words: list[str]) -> int:
-    """`… | tail [-n number]`: the last lines."""
-    count, lines = _counted(terminal, words)
-    return terminal.say(*lines[max(0, len(lines) - count) :])
-
-
-def _counted(terminal: Terminal, words: list[str]) -> tuple[int, list[str]]:
-    """The number behind `-n` or `-`, and the lines."""
     count, names = 10, []
     following = iter(words)
     for word in following:
@@ -222,14 +210,7 @@ def _counted(terminal: Terminal, words: list[str]) -> tuple[int, list[str]]:
             count = int(found[1] or next(following, 0))
         else:
             names.append(word)
-    return count, _lines(terminal, names)
-
-
-def sort(terminal: Terminal, words: list[str]) -> int:
-    """`… | sort [-r] [-u]`: the lines in order."""
-    letters, rest = options(words, "ru")
-    lines = _lines(terminal, rest)
-    return terminal.say(*sorted(set(lines) if "u" in letters else lines, reverse="r" in letters))
+    return terminal.say(*_lines(terminal, names)[:count])
 
 
 def wc(terminal: Terminal, words: list[str]) -> int:
@@ -283,7 +264,6 @@ def kill(terminal: Terminal, words: list[str]) -> int:
 
 
 _WORDS = (
-    cat, cd, chmod, cp, echo, export, grep, head, kill, ls, mkdir, mv, printenv, pwd, rm, sleep, sort, tail, touch,
-    unset, wc,
+    cat, cd, chmod, cp, echo, export, grep, head, kill, ls, mkdir, mv, printenv, pwd, rm, sleep, touch, unset, wc,
 )  # fmt: skip
 BUILTINS: dict[str, Builtin] = {"jobs": list_jobs, **{word.__name__: word for word in _WORDS}}
