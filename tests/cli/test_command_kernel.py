@@ -39,5 +39,5 @@ def test_so_it_does_in_live_mode(ask: Ask) -> None:
 
 
 def test_python_may_catch_it(ask: Ask) -> None:
-    cell = "try:\n    ros2 topic hz /turtle1/pose --for 80000 > x\nexcept KeyboardInterrupt: ros2 node list"
+    cell = "try:\n    ros2 topic hz /turtle1/pose --for 80000 > x\nexcept KeyboardInterrupt:\n    ros2 node list"
     assert ask(cell, stop_after=0.5) == ("/turtlesim\n", "")
