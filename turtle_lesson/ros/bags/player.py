@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..idl.names import did_you_mean
@@ -19,6 +18,8 @@ from . import BagError
 from .writer import profile_of, schema_text, type_hash
 
 if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.publisher import Publisher
     from rclpy.qos import QoSProfile
     from rosbags.interfaces import Qos
 
@@ -36,11 +37,10 @@ class Playback:
 
     Attributes:
         rate: how many times as fast as recorded.
-        start_offset, duration: where in the bag to begin, and how much of it to play (s; None for all).
+        start_offset: where in the bag to begin (s).
         topics: which to play; none named plays all.
         remaps: other names for some topics.
-        delay: how long to wait before each time (s of robot time).
-        clock: how often a second of robot time to say on /clock what time it is in the bag, 0 for never.
+        loop: whether to begin again at the end.
     """
 
     rate: float = 1.0
@@ -48,85 +48,68 @@ class Playback:
     topics: tuple[str, ...] = ()
     remaps: Mapping[str, str] = field(default_factory=dict)
     loop: bool = False
-    delay: float = 0.0
-    duration: float | None = None
-    clock: float = 0.0
 
 
-class Player:
-    """Publishes what is in a bag. `say(severity, text)` is told what happens."""
+def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> bool:
+    """Play a bag, for `seconds` of robot time at most. Called in a simulated process. Returns whether it came to its end.
 
-    def __init__(self, node: Any, bag: Bag, how: Playback, say: Say) -> None:
-        self._bag = bag
-        self._how = how
-        self._unreadable: Counter[str] = Counter()
-        self.published = 0
-        self._publishers: dict[tuple[str, str], Any] = {}
-        for topic in bag.topics:
-            if how.topics and topic.name not in how.topics:
-                continue
-            try:
-                name, profile = how.remaps.get(topic.name, topic.name), offer_of(topic.profiles)
-                publisher = node.create_publisher(_class_of(topic), name, profile)
-                self._publishers[topic.name, topic.type_name] = publisher
-            except Exception as error:
-                say("WARN", f"Ignoring a topic '{topic.name}', reason: {error}")
-        self._simulation = node._ros_simulation
-        self._next: float = inf  # when to say next on /clock what time it is in the bag
-        if how.clock:
-            from rosgraph_msgs.msg import Clock
+    `say(severity, text)` is told what happens.
+    """
+    import rclpy
 
-            self._clock = node.create_publisher(Clock, "/clock", 1)
-
-    def play(self, until: int | None = None) -> bool:
-        """Play the bag; False if the virtual time `until` (ns) came first."""
-        simulation = self._simulation
-        self._first = first = (self._bag.start or 0) + round(self._how.start_offset * NANOSECONDS)
-        last = inf if self._how.duration is None else first + round(self._how.duration * NANOSECONDS)
-        while True:
-            self._sleep_until(simulation.now + round(self._how.delay * NANOSECONDS))
-            self._began = simulation.now
-            if self._how.clock:
-                self._next = self._began
-            for message in self._bag.messages():
-                publisher = self._publishers.get((message.topic, message.type_name))
+    known = [topic.name for topic in bag.topics]
+    for name in how.topics:
+        if name not in known:
+            raise BagError(f"the bag has no topic '{name[:247]}'. {did_you_mean(name[:247], known)}".rstrip())
+    rclpy.init(args=[])
+    try:
+        node = rclpy.create_node(NODE, enable_rosout=False)
+        publishers = _publishers(node, bag, how, say)
+        simulation = node._ros_simulation
+        until = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
+        first = (bag.start or 0) + round(how.start_offset * NANOSECONDS)
+        published, unreadable = 0, Counter[str]()
+        again = True
+        while again:
+            began = simulation.now
+            for message in bag.messages():
+                publisher = publishers.get((message.topic, message.type_name))
                 if publisher is None or message.time < first:
                     continue
-                if message.time > last:
-                    break
-                due = self._began + round((message.time - first) / self._how.rate)
+                due = began + round((message.time - first) / how.rate)
                 if until is not None and due >= until:
-                    self._sleep_until(until)
+                    simulation.sleep_until(until)
                     return False
-                self._sleep_until(due)
+                simulation.sleep_until(due)
                 try:
                     publisher.publish(message.data)
-                    self.published += 1
+                    published += 1
                 except ValueError:
-                    self._unreadable[message.topic] += 1
+                    unreadable[message.topic] += 1
             simulation.sleep_until(simulation.now + LATENCY + LATENCY_SPREAD)  # what was sent last shall arrive, too
-            if not self._how.loop or not self.published:
-                return True
+            again = how.loop and published > 0
+        for topic, count in unreadable.items():
+            say("WARN", f"{count} messages of '{topic}' are damaged and were left out")
+        if not published and not unreadable:
+            length = f"{bag.message_count} messages in {bag.duration / NANOSECONDS:g} s"
+            say("WARN", f"nothing was played: the bag holds {length}, and none that was requested")
+        return True
+    finally:
+        rclpy.try_shutdown()
 
-    def _sleep_until(self, time: int) -> None:
-        """Sleep until a virtual time (ns), and say meanwhile on /clock what time it is in the bag."""
-        while self._next <= time:
-            self._simulation.sleep_until(self._next)
-            message = self._clock.msg_type()
-            moment = self._first + round((self._next - self._began) * self._how.rate)
-            message.clock.sec, message.clock.nanosec = divmod(moment, NANOSECONDS)
-            self._clock.publish(message)
-            self._next += round(NANOSECONDS / self._how.clock)
-        self._simulation.sleep_until(time)
 
-    def complaints(self) -> list[str]:
-        """A sentence for each topic with messages that are spoiled, and one if there was nothing to play."""
-        if not self.published and not self._unreadable:
-            length = f"{self._bag.message_count} messages in {self._bag.duration / NANOSECONDS:g} s"
-            return [f"nothing was played: the bag holds {length}, and none that was requested"]
-        return [
-            f"{count} messages of '{topic}' are damaged and were left out" for topic, count in self._unreadable.items()
-        ]
+def _publishers(node: Node, bag: Bag, how: Playback, say: Say) -> dict[tuple[str, str], Publisher]:
+    """A publisher for each topic that is to be played, by the topic's name and type."""
+    publishers = {}
+    for topic in bag.topics:
+        if how.topics and topic.name not in how.topics:
+            continue
+        try:
+            name, profile = how.remaps.get(topic.name, topic.name), offer_of(topic.profiles)
+            publishers[topic.name, topic.type_name] = node.create_publisher(_class_of(topic), name, profile)
+        except Exception as error:
+            say("WARN", f"Ignoring a topic '{topic.name}', reason: {error}")
+    return publishers
 
 
 def offer_of(profiles: Sequence[Qos]) -> QoSProfile:
@@ -177,28 +160,3 @@ def parse_remaps(rules: list[str]) -> dict[str, str]:
         validate_topic_name(new)
         remaps[old if old.startswith("/") else f"/{old}"] = new
     return remaps
-
-
-def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> bool:
-    """Play a bag, for `seconds` of robot time at most. Called in a simulated process. Returns whether it came to its end."""
-    import rclpy
-
-    known = [topic.name for topic in bag.topics]
-    for name in how.topics:
-        if name not in known:
-            raise BagError(f"the bag has no topic '{name[:247]}'. {did_you_mean(name[:247], known)}".rstrip())
-    rclpy.init(args=[])
-    try:
-        node = rclpy.create_node(NODE, enable_rosout=False)
-        player = Player(node, bag, how, say)
-        for name in how.remaps:
-            if name not in known:
-                say("WARN", f"the bag has no topic '{name}' to be remapped")
-        simulation = node._ros_simulation
-        until = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
-        ended = player.play(until)
-        for sentence in player.complaints():
-            say("WARN", sentence)
-        return ended
-    finally:
-        rclpy.try_shutdown()

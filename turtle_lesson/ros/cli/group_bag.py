@@ -19,7 +19,7 @@ from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.world import current_process
 from ..sim.simulation import EPOCH, NANOSECONDS
-from .arguments import arg, bounded, duration, flag, frequency
+from .arguments import arg, bounded, duration, flag
 from .verb import CommandError, end_of_stretch, now, remark, stretch_of, verb
 
 if TYPE_CHECKING:
@@ -125,10 +125,7 @@ def _info(args: Namespace) -> None:
     arg("--topics", "Play only these topics", nargs="+", default=[]),
     arg("-m --remap", "Other names for topics: /old:=/new ...", nargs="+", default=[]),
     flag("-l --loop", "Start over at the end"),
-    arg("-d --delay", "Seconds to wait before the first message (each time)", type=_at_least_0, default=0.0),
     arg("--start-offset", "Start this many seconds into the bag", type=_at_least_0, default=0.0),
-    arg("--playback-duration", "Play only this many seconds of the bag", type=_at_least_0),
-    arg("--clock", "Publish /clock this often a second (40)", type=frequency, nargs="?", const=40.0, default=0.0),
     duration(),
 )
 def _play(args: Namespace) -> int:
@@ -146,9 +143,6 @@ def _play(args: Namespace) -> int:
             topics=tuple(name if name.startswith("/") else f"/{name}" for name in args.topics),
             remaps=parse_remaps(args.remap),
             loop=args.loop,
-            delay=args.delay,
-            duration=args.playback_duration,
-            clock=args.clock,
         )
         if bag.damage:
             say("ERROR", bag.damage)
