@@ -32,14 +32,14 @@ class Message(NamedTuple):
 
 
 class Bag:
-    """A recording on disk; made by `open_bag`. Times are in ns since 1970, and None where there is no message."""
+    """A recording on disk; made by `open_bag`. Times are in ns since 1970, and 0 where there is no message."""
 
     def __init__(self, path: Path, files: list[Path], contents: Contents, metadata: dict[str, Any]) -> None:
         self._messages = messages = contents.messages
         self.path = path
         self.files = files
-        self.start: int | None = messages[0][0] if messages else None
-        self.end: int | None = messages[-1][0] if messages else None
+        self.start, self.end = (messages[0][0], messages[-1][0]) if messages else (0, 0)
+        self.duration = self.end - self.start
         self.message_count = len(messages)
         self.size = sum(file.stat().st_size for file in files)
         self.storage = STORAGES[files[0].suffix]
@@ -47,11 +47,6 @@ class Bag:
         self._flaws = contents.flaws
         promised = metadata.get("message_count")
         self._expected = promised if isinstance(promised, int) else None
-
-    @property
-    def duration(self) -> int:
-        """From the first to the last message, in ns."""
-        return 0 if self.start is None or self.end is None else self.end - self.start
 
     @property
     def lost(self) -> int | None:
@@ -135,7 +130,6 @@ def info_text(bag: Bag) -> str:
     Humble cuts times to milliseconds without leading zeros, so that 12.005 s becomes `12.5s`; here they are whole, with nine
     digits, as Jazzy prints them. Days and hours are UTC, the same on every machine.
     """
-    start, end = bag.start or 0, bag.end or 0
     topics = [
         f"Topic: {topic.name} | Type: {topic.type_name} | Count: {topic.count} | "
         f"Serialization Format: {topic.serialization}"
@@ -146,8 +140,8 @@ def info_text(bag: Bag) -> str:
         ("Bag size", size_text(bag.size)),
         ("Storage id", bag.storage),
         ("Duration", f"{seconds_text(bag.duration)}s"),
-        ("Start", moment_text(start)),
-        ("End", moment_text(end)),
+        ("Start", moment_text(bag.start)),
+        ("End", moment_text(bag.end)),
         ("Messages", str(bag.message_count)),
         ("Topic information", f"\n{'':{INDENT}}".join(topics)),
     ]

@@ -67,7 +67,7 @@ def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> boo
         publishers = _publishers(node, bag, how, say)
         simulation = node._ros_simulation
         until = None if seconds is None else simulation.now + round(seconds * NANOSECONDS)
-        first = (bag.start or 0) + round(how.start_offset * NANOSECONDS)
+        first = bag.start + round(how.start_offset * NANOSECONDS)
         published, unreadable = 0, Counter[str]()
         again = True
         while again:

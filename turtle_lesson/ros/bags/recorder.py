@@ -214,8 +214,7 @@ def record(
     recorder = None
     try:
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)  # what is under way is recorded, too
-        visible = not node_name.startswith("_")
-        node = rclpy.create_node(node_name, start_parameter_services=visible, enable_rosout=False)
+        node = rclpy.create_node(node_name, start_parameter_services=node_name == NODE, enable_rosout=False)
         names = tuple(node.resolve_topic_name(name) for name in selection.topics)
         recorder = Recorder(node, bag, replace(selection, topics=names), say)
         if seconds is not None:

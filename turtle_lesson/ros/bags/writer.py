@@ -62,9 +62,6 @@ class BagWriter:
         # Also when Python ends before anybody said stop.
         self._end = weakref.finalize(self, _close, self._writer, folder.resolve())
 
-    def __repr__(self) -> str:
-        return f"<BagWriter of {self.folder.name}, {self.count} messages>"
-
     @property
     def closed(self) -> bool:
         """Whether the bag is complete."""
@@ -158,11 +155,7 @@ class _Numbered:
 
 def _close(writer: Any, folder: Path) -> None:
     files.in_use.discard(folder)
-    try:
-        writer.close()
-    except Exception:
-        writer.abort()
-        raise
+    writer.close()
 
 
 def schema_text(message_class: Any) -> str:
