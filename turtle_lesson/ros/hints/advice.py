@@ -81,23 +81,10 @@ def _function(name: str) -> Callable[..., Any] | None:
 def value_advice(error: BaseException) -> str:
     """A sentence about an error whose words are known."""
     kind, text = type(error).__name__, str(error)
-    if match := re.fullmatch(r"Invalid(Node|Topic|Service)?Name(space)?Exception", kind):
-        return _name(text, (match[1] or "namespace").lower())
     for known, pattern, sentence in _KNOWN:
         if kind == known and (match := re.search(pattern, text)):
             return sentence.format(*match.groups())
     return ""
-
-
-def _name(text: str, what: str) -> str:
-    """A name like the wrong one, which would do."""
-    found = re.search(r"^  '(.*)'$", text, re.MULTILINE)
-    wrong = found[1] if found else ""
-    good = re.sub(r"\W+" if what == "node" else r"[^\w/~{}]+", "_", wrong, flags=re.ASCII)
-    good = re.sub(r"([_/])\1+", r"\1", good).strip("_").rstrip("/")
-    good = re.sub(r"(^|/)(\d)", r"\1n\2", good)
-    rule = f"In the name of a {what}, letters, digits and '_' are allowed, but no digit at the beginning"
-    return f"{rule}: try '{good}'." if good and good != wrong else f"{rule}."
 
 
 _TYPES = {
