@@ -11,8 +11,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..ament.index import current_packages
-from ..ament.package import PythonProgram
 from .jobs import lasting, with_values
 
 if TYPE_CHECKING:
@@ -200,42 +198,16 @@ def with_its_program(words: Sequence[str]) -> list[str]:
 
 
 # -- Python programs -------------------------------------------------------------------------------------------------
-# `python3 FILE.py …` and `python3 -m MODULE …`: run a file, or a module of a package that was sourced, as a program
-# of this world, as `ros2 run` does with those of packages.
+# `python3 FILE.py …`: run a file as a program of this world, as `ros2 run` does with those of packages.
 
 _PYTHON = re.compile(r"python(3(\.\d+)?)?")
-_AS_MODULE = """\
-from importlib.util import find_spec
-
-__spec__ = find_spec({name!r})
-if __spec__.submodule_search_locations is not None:
-    __spec__ = find_spec({name!r} + ".__main__")
-__file__, __package__, __loader__ = __spec__.origin, __spec__.parent, __spec__.loader
-del find_spec
-exec(__loader__.get_code(__spec__.name))
-"""
-"""Runs a module in the place of the main program. (runpy would change `sys.modules` when the program is interrupted,
-at a time when those of the notebook are in it.)"""
 
 
 def script_of(words: Sequence[str]) -> Path | None:
-    """The file that a command runs, if it is Python with a file or module that is there; all else the computer has to do."""
-    if len(words) < 2 or not _PYTHON.fullmatch(words[0]):
+    """The file that a command runs, if it is Python with a file that is there; all else the computer has to do."""
+    if len(words) < 2 or not _PYTHON.fullmatch(words[0]) or len(words[1]) >= 1000:
         return None
-    name = words[1]
-    if name == "-m":
-        return _module(words[2]) if len(words) > 2 else None
-    return Path(name) if not name.startswith("-") and len(name) < 1000 and Path(name).is_file() else None
-
-
-def _module(name: str) -> Path | None:
-    """The file of a module beside which the terminal stands, or of a package that was sourced."""
-    if not all(part.isidentifier() for part in name.split(".")):
-        return None
-    folders = [Path.cwd(), *(folder for package in current_packages() for folder in package.modules)]
-    inner = Path(*name.split("."))
-    places = (folder / file for folder in folders for file in (inner.with_suffix(".py"), inner / "__main__.py"))
-    return next((place for place in places if place.is_file()), None)
+    return Path(words[1]) if Path(words[1]).is_file() else None
 
 
 def run_script(
@@ -247,11 +219,6 @@ def run_script(
     """
     from .group_run_launch import leave, reader_of
 
-    target: Path | PythonProgram = path
-    name, arguments = path.stem, list(words[1:])
-    if arguments[0] == "-m":
-        name, arguments = arguments[1].rpartition(".")[2], [str(path), *arguments[2:]]
-        target = PythonProgram(path, (Path.cwd(),), _AS_MODULE.format(name=words[2]))
     out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
-    process = world.spawn(target, name=name, argv=arguments, stdin=reader_of(stdin), stdout=out, stderr=error)
+    process = world.spawn(path, name=path.stem, argv=words[1:], stdin=reader_of(stdin), stdout=out, stderr=error)
     return leave(process, " ".join(words), None)
