@@ -12,7 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from IPython.core.magic import Magics, line_cell_magic, line_magic, magics_class, no_var_expand
+from IPython.core.magic import no_var_expand
 
 from .ros.sim import errors
 from .session.robot import real_ros
@@ -77,52 +77,27 @@ def _show(
     shell.showtraceback((kind, error, error.__traceback__), tb_offset=0)
 
 
-@magics_class
-class TerminalMagics(Magics):
-    """The terminal of a notebook. Nothing in its lines is expanded: `{…}` and `$…` are YAML, and not Python."""
-
-    @no_var_expand
-    @line_cell_magic
-    def terminal(self, line: str, cell: str | None = None) -> None:
-        """Run commands as in a terminal: `%terminal ros2 topic list && ros2 node list`, or a whole cell of them."""
-        self._run(line if cell is None else f"{line}\n{cell}")
-
-    @no_var_expand
-    @line_magic
-    def ros2(self, line: str) -> None:
-        """The command line of ROS 2. `%ros2 -h` lists its commands."""
-        self._run(f"ros2 {line}")
-
-    @no_var_expand
-    @line_magic
-    def colcon(self, line: str) -> None:
-        """Build the workspace: `%colcon build`."""
-        self._run(f"colcon {line}")
-
-    @no_var_expand
-    @line_magic
-    def source(self, line: str) -> None:
-        """Make what was built findable: `%source install/setup.bash`."""
-        self._run(f"source {line}")
-
-    def _run(self, script: str) -> None:
-        from .ros.cli.shell import Shell, run_line
-        from .ros.runtime.world import current_world
-
-        assert self.shell is not None
-        try:
-            run_line(current_world(), script)
-        finally:
-            self.shell.user_ns["_exit_code"] = Shell(current_world()).exit_code
-
-
 def _understand_commands(shell: Any) -> None:
     """Make an IPython shell understand commands; doing it twice changes nothing."""
     from .ros.cli import cells, completion
     from .ros.runtime import files
 
+    @no_var_expand
+    def terminal(line: str, cell: str | None = None) -> None:
+        """Run commands as in a terminal: `%terminal ros2 topic list && ros2 node list`, or a whole cell of them.
+
+        Nothing in its lines is expanded: `{…}` and `$…` are YAML, and not Python.
+        """
+        from .ros.cli.shell import Shell, run_line
+        from .ros.runtime.world import current_world
+
+        try:
+            run_line(current_world(), line if cell is None else f"{line}\n{cell}")
+        finally:
+            shell.user_ns["_exit_code"] = Shell(current_world()).exit_code
+
     files.begin_notebook()
-    shell.register_magics(TerminalMagics)
+    shell.register_magic_function(terminal, "line_cell", cells.MAGIC)
     transformers = shell.input_transformer_manager.line_transforms  # before IPython takes the cell for Python
     transformers[:] = [each for each in transformers if not getattr(each, "is_turtle_lesson", False)]
 
