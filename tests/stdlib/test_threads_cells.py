@@ -153,7 +153,7 @@ def test_a_cell_and_its_calls_are_one_thread(cell: Cell) -> None:
 
 
 def test_a_cell_that_waits_in_vain_is_told_so(cell: Cell) -> None:
-    with pytest.raises(NeverWakes, match=r"Queue.get\(\) would never return"):
+    with pytest.raises(NeverWakes, match=r"waiting for Queue.get\(\) would never end"):
         cell("queue.Queue().get()")
     with pytest.raises(NeverWakes, match="this same thread has already taken it"):
         cell("lock = threading.Lock()\nwith lock:\n    with lock:\n        pass")

@@ -451,7 +451,7 @@ def test_an_event_that_only_the_same_executor_could_set(world: World) -> None:
         rclpy.spin(node)
 
     assert told(world, program).startswith(
-        "Event.wait() would never return: nothing is left in this program that could set the event. It has no other "
+        "waiting for Event.wait() would never end: nothing is left in this program that could end it. It has no other "
         "thread. While a callback waits, a single-threaded executor calls no other"
     )
 
@@ -504,5 +504,5 @@ def test_a_rate_in_a_callback_of_the_only_thread_that_spins(world: World, capsys
         spin_in_thread(node)
         done.wait()
 
-    assert "could set the event" in told(world, program)
+    assert "waiting for Event.wait() would never end" in told(world, program)
     assert "waiting for the next tick would never end" in capsys.readouterr().err

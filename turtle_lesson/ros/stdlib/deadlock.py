@@ -121,23 +121,7 @@ LOOP = "its asyncio loop"
 IDLE = "something to do"
 """What an idle worker waits for: it is no deadlock if nothing wakes it, and it wakes no other thread."""
 
-_WHAT_ENDS_IT = {
-    "Barrier.wait": "come to the barrier",
-    **dict.fromkeys(("Condition.wait", "Condition.wait_for"), "notify the condition"),
-    "Event.wait": "set the event",
-    **dict.fromkeys(("Future.exception", "Future.result"), "complete the future"),
-    **dict.fromkeys(("Queue.get", "SimpleQueue.get"), "put anything into the queue"),
-    "Queue.join": "call task_done() for what is left in the queue",
-    "Queue.put": "take anything out of the queue",
-    "Semaphore.acquire": "release the semaphore",
-    "Thread.join": "end that thread",
-}
-
-_PUBLIC = {
-    "_PySimpleQueue.get": "SimpleQueue.get",
-    "_RLock.acquire": LOCK,
-    "join": "Thread.join",
-}
+_PUBLIC = {"_PySimpleQueue.get": "SimpleQueue.get()", "_RLock.acquire": LOCK, "join": "Thread.join()"}
 """By what a frame's code is called: the documented function that it stands for."""
 
 hints: list[Callable[[Strand], str]] = []
@@ -152,15 +136,14 @@ def why_nobody_is_left(strand: Strand) -> str:
             "this asyncio loop would wait forever: all of its tasks wait, none of them for a time, and nothing is left in "
             f"this program that could wake one. {_others(strand)}"
         )
-    action = _WHAT_ENDS_IT.get(what, "release it" if what == LOCK else "end that")
-    text = f"{_never(what)}: nothing is left in this program that could {action}. {_others(strand)}"
+    text = f"waiting for {what} would never end: nothing is left in this program that could end it. {_others(strand)}"
     advice = next(filter(None, (hint(strand) for hint in hints)), "")
     return f"{text} {advice}".rstrip()
 
 
 def why_in_a_circle(strand: Strand, chain: Sequence[Strand], owner: Strand) -> str:
     """Why a strand would wait forever: because the strands that wait for one another form a circle, or one has ended."""
-    never = _never(wait_of(strand))
+    never = f"waiting for {wait_of(strand)} would never end"
     if owner.dead:
         return f"{never}: {_name(owner)} has ended without releasing it."
     if owner is strand and len(chain) == 1:
@@ -174,14 +157,8 @@ def why_in_a_circle(strand: Strand, chain: Sequence[Strand], owner: Strand) -> s
     return f"{never}: {', and '.join(waits)}. If all threads take locks in the same order, that cannot happen."
 
 
-def _never(what: str) -> str:
-    if what in _WHAT_ENDS_IT:
-        return f"{what}() would never return"
-    return f"waiting for {what} would never end"
-
-
 def wait_of(strand: Strand) -> str:
-    """What a strand waits for, as it stands in the program: `Queue.get`, `the lock`, `the call of /add`."""
+    """What a strand waits for, as it stands in the program: `Queue.get()`, `the lock`, `the call of /add`."""
     if isinstance(strand.waits_for, str):
         return strand.waits_for
     frame = sys._getframe(1) if strand is running_strand() else strand.frame
@@ -197,7 +174,7 @@ def _called_in(frame: FrameType | None) -> str:
     while frame is not None:
         name, function = frame.f_globals.get("__name__", ""), frame.f_code.co_qualname
         if name in _ROOMS and function not in ("Thread.run", "_worker"):  # by which a pool's thread came there
-            found = _PUBLIC.get(function, function)
+            found = _PUBLIC.get(function, f"{function}()")
         elif name.startswith(_OURS):
             found = _PUBLIC.get(function, found)
         else:
@@ -208,8 +185,7 @@ def _called_in(frame: FrameType | None) -> str:
 
 def _others(strand: Strand) -> str:
     others = [each for each in strand.process.strands if each is not strand and not each.dead]
-    waits = [(_name(each), wait_of(each)) for each in others if each.waits_for not in (None, "", IDLE)]
-    waiting = [f"{name} waits {f'in {what}()' if what in _WHAT_ENDS_IT else f'for {what}'}" for name, what in waits]
+    waiting = [f"{_name(each)} waits for {wait_of(each)}" for each in others if each.waits_for not in (None, IDLE)]
     return f"Its other threads are waiting as well: {', '.join(waiting)}." if waiting else "It has no other thread."
 
 
