@@ -119,10 +119,6 @@ class Process:
             found = self._states[kind] = kind(*arguments)
         return found
 
-    def __repr__(self) -> str:
-        state = "alive" if self.alive else f"exited with {self.exit_code}"
-        return f"<Process {self.name} [{self.pid}], {state}>"
-
     @property
     def alive(self) -> bool:
         """Whether the process has not ended yet."""

@@ -59,10 +59,6 @@ class SteppedCall:
         self._refusals: int | None = None
         simulation.stepped = self
 
-    def __repr__(self) -> str:
-        state = "done" if self.done else "begun" if self._greenlet else "not begun"
-        return f"<SteppedCall of {self.function!r}, {state}>"
-
     @property
     def runs_here(self) -> bool:
         """Whether the code that asks is the function, or was called by it."""

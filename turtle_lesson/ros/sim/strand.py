@@ -116,10 +116,6 @@ class Strand(greenlet):
         """The innermost call in which it has stopped."""
         return self.gr_frame if self.body is None else self.body.gr_frame
 
-    def __repr__(self) -> str:
-        state = "dead" if self.dead else "parked" if self.parked else "ready or running"
-        return f"<Strand of {self.process.name}, {state}>"
-
 
 class Carrier(greenlet):
     """A stack on which turns are taken. `strand` is the one whose turn it is; None while it does nothing."""

@@ -22,8 +22,6 @@ from ..sim.strand import Strand, running_strand
 from .deadlock import count_look, wait_in_vain
 from .ownership import notebook_here, process_here
 
-RealLock = type(allocate_lock())
-
 
 def nanoseconds(seconds: float) -> int:
     """A time to wait, in ns; a remainder that rounds to nothing still lets time pass, so that loops come to an end."""

@@ -139,19 +139,16 @@ class _Facade(type):
         real_bases = tuple(getattr(base, behind) if isinstance(base, _Facade) else base for base in bases)
         return type(real_bases[0])(name, real_bases, namespace, **keywords)
 
-    def __getattr__(cls, name: str) -> Any:
-        return getattr(cls._real, name)
 
-
-def facade(real: Any, virtual: type, made: type | None = None) -> Any:
-    """The class that stands before `real` and `virtual`; `made` is the type of what `real` makes, if it is no class itself."""
+def facade(real: Any, virtual: type) -> Any:
+    """The class that stands before `real`, a class or a function that makes objects of one, and `virtual`."""
     namespace = {
         "__module__": getattr(real, "__module__", None),
         "__qualname__": real.__qualname__,
         "__doc__": real.__doc__,
         "_real": staticmethod(real),
         "_virtual": virtual,
-        "_kinds": (made or real, virtual),
+        "_kinds": (type(real()), virtual),
     }
     return _Facade(real.__name__, (), namespace)
 
