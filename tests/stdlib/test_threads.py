@@ -57,14 +57,14 @@ def test_a_thread_sleeps_while_its_program_goes_on(run: Run) -> None:
         time.sleep(1.0)
         found.append(("main", now()))
         worker.join()
-        found.append(("joined", now(), worker.is_alive(), "stopped" in repr(worker)))
+        found.append(("joined", now(), worker.is_alive()))
 
     assert run(program) == [
         ("thread", 0.4),
         ("thread", 0.8),
         ("main", 1.0),
         ("thread", 1.2),
-        ("joined", 1.2, False, True),
+        ("joined", 1.2, False),
     ]
 
 

@@ -164,7 +164,6 @@ TABLE: tuple[Patch, ...] = (
     _function("queue", locks.peek, PEEK, "time"),
     Patch("queue", "SimpleQueue", lambda real: facade(real, locks.VirtualSimpleQueue), "Python's is made in C"),
     *(_method("threading:Thread", each, THREAD) for each in (threads.start, threads.join, threads.is_alive)),
-    _method("threading:Thread", threads.representation, THREAD, "__repr__"),
     *(_in_process("threading", function, THREAD, name) for name, function in threads.IDENTITY.items()),
     *(_function("threading", each, THREAD) for each in (threads.main_thread, threads.enumerate, threads.active_count)),
     _function("threading", threads.newname, NAMES, "_newname"),

@@ -70,12 +70,6 @@ def is_alive(real: Any, self: Any) -> bool:
     return lock.locked() and not looked_in_vain()
 
 
-def representation(real: Any, self: Any) -> str:
-    """`Thread.__repr__`, which asks the real thread whether it has ended."""
-    lock, text = _lock_of(self), real(self)
-    return text if lock is None or lock.locked() else text.replace(", started ", ", stopped ", 1)
-
-
 def _lock_of(thread: threading.Thread) -> VirtualLock | None:
     """The lock that a simulated thread holds until it ends; None for a real one, and for one that was not started."""
     return vars(thread).get("_virtual")
@@ -141,17 +135,12 @@ def start_new_thread(
 # -- which thread is this? ---------------------------------------------------------------------------------------------
 
 
-class _MainThread(threading.Thread):
-    """The main thread of a simulated process."""
-
-
 def thread_of(strand: Strand) -> threading.Thread:
     """The thread object of a strand, made when it is first asked for."""
     if strand.thread is None:
-        if strand is strand.process.main_strand:
-            become(_MainThread(name="MainThread", daemon=False), strand)
-        else:
-            become(threading.Thread(name=strand.name or "Dummy", daemon=True), strand)
+        is_main = strand is strand.process.main_strand
+        name = "MainThread" if is_main else strand.name or "Dummy"
+        become(threading.Thread(name=name, daemon=not is_main), strand)
     return strand.thread
 
 
