@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import atexit
 import os
 import signal
@@ -158,8 +159,10 @@ def test_other_processes_of_the_computer_are_refused(run: Run) -> None:
     def program(found: list[Any]) -> None:
         with pytest.raises(NotImplementedError, match=r"os.fork\(\) is not possible here: .* Threads can be"):
             os.fork()
-        with pytest.raises(NotImplementedError, match=r"signal.setitimer\(\) is not available here"):
+        with pytest.raises(NotImplementedError, match=r"signal.setitimer\(\) is not possible here"):
             signal.setitimer(signal.ITIMER_REAL, 1)
+        with pytest.raises(NotImplementedError, match=r"_thread.start_new_thread\(\) is not possible here"):
+            _thread.start_new_thread(print, ())
         found.append("refused")
 
     assert run(program) == ["refused"]

@@ -228,16 +228,6 @@ def test_each_thread_sees_its_own_values_of_a_local(run: Run) -> None:
     assert run(program) == [(False, "nobody", "hello"), (2, "thread"), (1, "main")]
 
 
-def test_the_older_interface_works_too(run: Run) -> None:
-    import _thread
-
-    def program(found: list[Any]) -> None:
-        _thread.start_new_thread(lambda word: found.append(word), ("hello",))
-        time.sleep(0.1)
-
-    assert run(program) == ["hello"]
-
-
 # ---------------------------------------------------------------- the end of a program
 
 

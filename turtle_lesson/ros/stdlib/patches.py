@@ -101,11 +101,11 @@ def _in_process(
     return _function(owner, call, why, name or function.__name__, stage)
 
 
-def _refused(owner: str, name: str, why_not: Callable[[str], Exception]) -> Patch:
+def _refused(owner: str, name: str) -> Patch:
     """A row for a function that a simulated process cannot have."""
 
     def refuse(strand: Strand, *arguments: Any, **keywords: Any) -> Any:
-        raise why_not(f"{owner}.{name}()")
+        raise subprocesses.not_here(f"{owner}.{name}()")
 
     return _in_process(owner, refuse, REFUSED, name)
 
@@ -156,7 +156,7 @@ TABLE: tuple[Patch, ...] = (
         for name in process_state.NUMPY
     ),
     _function("numpy.random", process_state.default_rng, DRAW),
-    Patch("threading", "Lock", lambda real: facade(real, locks.VirtualLock, locks.RealLock), WAITS),
+    Patch("threading", "Lock", lambda real: facade(real, locks.VirtualLock), WAITS),
     _function("threading", locks.rlock, WAITS, "RLock"),
     Patch("threading:Event", "is_set", lambda real: deadlock.is_set, "polling takes time, or would never end"),
     _function("threading", locks.waiter, WAITS, "_allocate_lock"),
@@ -167,7 +167,6 @@ TABLE: tuple[Patch, ...] = (
     *(_in_process("threading", function, THREAD, name) for name, function in threads.IDENTITY.items()),
     *(_function("threading", each, THREAD) for each in (threads.main_thread, threads.enumerate, threads.active_count)),
     _function("threading", threads.newname, NAMES, "_newname"),
-    _in_process("_thread", threads.start_new_thread, THREAD),
     Patch("_threading_local", "current_thread", _now("threading", "current_thread"), "local values go by strand"),
     Patch("_threading_local", "RLock", _now("threading", "RLock"), WAITS),
     Patch("threading", "local", lambda real: facade(real, ownership.VirtualLocal), "Python's goes by real threads"),
@@ -185,8 +184,7 @@ TABLE: tuple[Patch, ...] = (
     _in_process("os", lambda strand, code: strand.process.end_now(code), "ends one process", "_exit", cells=False),
     _function("os", terminals.read, "reads the program's own terminal"),
     *(_function("os", process_state.tell_system, VARIABLES, name) for name in ("putenv", "unsetenv")),
-    *(_refused("os", name, subprocesses.no_process) for name in ("fork", "forkpty")),
-    *(_refused("signal", name, process_state.no_signal) for name in process_state.NO_SIGNALS),
+    *(_refused(owner, name) for owner, names in subprocesses.OF_THE_COMPUTER.items() for name in names),
     *(
         _function(owner, process_state.with_modules, MODULES, name)
         for owner, name in process_state.LOOKS_INTO_SYS_MODULES

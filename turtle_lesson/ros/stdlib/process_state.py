@@ -154,17 +154,6 @@ def kill(real: Any, pid: int, signal: int, /) -> None:
         real(pid, signal)
 
 
-NO_SIGNALS = ("alarm", "pause", "pthread_kill", "set_wakeup_fd", "setitimer", "sigtimedwait", "sigwait", "sigwaitinfo")
-"""What `signal` has, and a simulated process has not."""
-
-
-def no_signal(what: str) -> NotImplementedError:
-    """Why a simulated process cannot do with signals what only a real operating system can."""
-    return NotImplementedError(
-        f"{what} is not available here; signal.signal, signal.raise_signal and os.kill are, and timers instead of alarms"
-    )
-
-
 # -- exits -------------------------------------------------------------------------------------------------------------
 # What a program gives to `atexit` is called when its process ends. What a library registers while a program imports it
 # is left to Python itself: the library is there for all processes.

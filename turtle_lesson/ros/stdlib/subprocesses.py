@@ -183,16 +183,25 @@ def first_window(real: Any, self: Any, *arguments: Any, **keywords: Any) -> None
     real(self, *arguments, **keywords)
 
 
-def no_process(what: str) -> NotImplementedError:
-    """Why a simulated process can have no other process."""
+OF_THE_COMPUTER = {
+    "_thread": ("start_new_thread",),
+    "os": ("fork", "forkpty"),
+    "signal": ("alarm", "pause", "pthread_kill", "set_wakeup_fd", "setitimer", "sigtimedwait", "sigwait", "sigwaitinfo"),
+}
+"""By module, the functions that are refused."""
+
+
+def not_here(what: str) -> NotImplementedError:
+    """Why a simulated process cannot have processes, threads and alarms of the computer."""
     return NotImplementedError(
-        f"{what} is not possible here: another process of the computer would know nothing about the simulation and its "
-        "time. Threads can be used (threading, concurrent.futures.ThreadPoolExecutor), and further nodes by a launch file."
+        f"{what} is not possible here: what the computer itself runs knows nothing about the simulation and its time. "
+        "Threads can be used (threading, concurrent.futures.ThreadPoolExecutor), further nodes by a launch file, timers, "
+        "signal.signal and os.kill."
     )
 
 
 def start(real: Any, self: Any) -> None:
     """`multiprocessing.Process.start`, which is what all of multiprocessing comes down to."""
     if running_strand() is not None:
-        raise no_process("multiprocessing")
+        raise not_here("multiprocessing")
     real(self)

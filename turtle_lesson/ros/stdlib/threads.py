@@ -123,15 +123,6 @@ def _sleep_of_a_cell(seconds: float) -> bool:
     return True
 
 
-def start_new_thread(
-    strand: Strand, function: Any, args: tuple[Any, ...], kwargs: dict[str, Any] | None = None, /
-) -> int:
-    """`_thread.start_new_thread`, which is older and does less."""
-    thread = threading.Thread(target=function, args=args, kwargs=kwargs, daemon=True)
-    thread.start()
-    return thread.ident or 0
-
-
 # -- which thread is this? ---------------------------------------------------------------------------------------------
 
 
