@@ -81,19 +81,7 @@ class _Date(type):
         return issubclass(subclass, cls._behind) if "_behind" in vars(cls) else super().__subclasscheck__(subclass)
 
 
-class _Robots:
-    """What both classes have in common: objects of them, and not of a program's subclass, pass for those of the real ones."""
-
-    def __repr__(self) -> str:
-        return f"datetime.{super().__repr__()}" if "_behind" in vars(type(self)) else super().__repr__()
-
-    def __reduce_ex__(self, protocol: Any, /) -> Any:
-        reduced: tuple[Any, ...] = super().__reduce_ex__(protocol)  # type: ignore[assignment]
-        kind, *rest = reduced
-        return (vars(kind).get("_behind", kind), *rest)
-
-
-class date(_Robots, real.date, metaclass=_Date):
+class date(real.date, metaclass=_Date):
     """A day."""
 
     _behind = real.date
@@ -106,7 +94,7 @@ class date(_Robots, real.date, metaclass=_Date):
         return cls(moment.year, moment.month, moment.day)
 
 
-class datetime(_Robots, real.datetime, metaclass=_Date):
+class datetime(real.datetime, metaclass=_Date):
     """A moment."""
 
     _behind = real.datetime
