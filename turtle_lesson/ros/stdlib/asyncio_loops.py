@@ -7,7 +7,6 @@ never waits lets time pass all the same. Each thread of a simulated process has 
 from __future__ import annotations
 
 import asyncio
-import signal
 import threading
 from collections.abc import Callable
 from functools import partial
@@ -102,25 +101,16 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
             self._cell.show_in(context)
         return super().call_soon(callback, *args, context=context)
 
-    # -- what a selector loop has beside it ----------------------------------------------------------------------------
-
-    def add_signal_handler(self, sig: int, callback: Any, *args: Any) -> None:  # type: ignore[override]
-        """Have a function called in the loop when this process gets a signal."""
-        signal.signal(sig, lambda *_: self.call_soon_threadsafe(callback, *args))
-
-    def remove_signal_handler(self, sig: int) -> bool:
-        """No longer have it called; whether it was."""
-        default = signal.default_int_handler if sig == signal.SIGINT else signal.SIG_DFL
-        return signal.signal(sig, default) not in (default, None)
+    # -- what needs the real computer ----------------------------------------------------------------------------------
 
     def _refused(self, *arguments: Any, **keywords: Any) -> Any:
         raise NotImplementedError(
             "not possible here: files, sockets and processes of the real computer know nothing about virtual time. Of "
-            "asyncio tasks, queues, events, sleep, run_in_executor and signals work."
+            "asyncio tasks, queues, events, sleep and run_in_executor work, and signal.signal."
         )
 
     add_reader = add_writer = sock_connect = sock_recv = sock_sendall = subprocess_exec = subprocess_shell = _refused  # type: ignore[assignment]
-    create_connection = create_datagram_endpoint = create_server = create_unix_connection = _refused
+    create_connection = create_datagram_endpoint = create_server = create_unix_connection = add_signal_handler = _refused
 
 
 # -- loop functions ----------------------------------------------------------------------------------------------------
