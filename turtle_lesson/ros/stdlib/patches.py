@@ -14,7 +14,6 @@ import queue
 import random
 import sys
 import threading
-import warnings
 from collections.abc import Callable, Sequence
 from concurrent.futures import thread as pool
 from enum import IntEnum
@@ -228,9 +227,6 @@ FINDERS = (ProgramFinder, LateFinder)
 """What a world puts before all other finders: one gives each program modules of its own, one has rows wait for their module.
 The one that makes the modules of message packages is there from `import turtle_lesson` on."""
 
-PROVED_ON = ((3, 11), (3, 14))
-"""The oldest and the newest Python with which the names below were seen to do what is expected of them."""
-
 PRIVATE_NAMES: tuple[tuple[Any, str], ...] = (
     (threading, "_time _newname _RLock _allocate_lock"),
     (threading.Condition(), "_lock"),
@@ -249,23 +245,16 @@ PRIVATE_NAMES: tuple[tuple[Any, str], ...] = (
 """
 
 
-def _check_python(version: tuple[int, int] = sys.version_info[:2]) -> None:
-    """On a Python that is newer than those that were tried: go on and say so, unless a private name is gone.
-
-    Raises NotImplementedError if one is.
-    """
-    if version <= PROVED_ON[1]:
-        return
-    known = "Python " + " to ".join(f"{major}.{minor}" for major, minor in PROVED_ON)
-    here = f"Python {version[0]}.{version[1]}"
+def _check_python() -> None:
+    """Raise NotImplementedError on a Python that lacks a private name, as one that is newer than 3.14 may."""
     gone = [
         f"{name} ({owner!r})" for owner, names in PRIVATE_NAMES for name in names.split() if not hasattr(owner, name)
     ]
     if gone:
         raise NotImplementedError(
-            f"turtle_lesson runs on {known}; {here} has changed what simulated programs need: {', '.join(gone)}"
+            f"turtle_lesson runs on Python 3.11 to 3.14; this one, {sys.version.split()[0]}, has changed what simulated "
+            f"programs need: {', '.join(gone)}"
         )
-    warnings.warn(f"turtle_lesson was tried on {known}, and not yet on {here}", RuntimeWarning, stacklevel=3)
 
 
 # -- putting in and taking out ---------------------------------------------------------------------------------------
