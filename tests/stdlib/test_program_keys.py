@@ -345,8 +345,6 @@ def test_curses_waits_for_keys_in_robot_time(lesson: Lesson, begin: Begin, capsy
         print(screen.getch(), time.monotonic() // 0.1 / 10)
         screen.timeout(-1)
         print(screen.getch() == curses.KEY_LEFT, screen.getch())
-        screen.keypad(False)
-        print([screen.getch() for _ in range(3)])
         screen.nodelay(1)
         print(screen.getch())
         curses.nocbreak(); curses.echo(); curses.endwin()
@@ -355,9 +353,9 @@ def test_curses_waits_for_keys_in_robot_time(lesson: Lesson, begin: Begin, capsy
         """
     )
     lesson.run(1)
-    lesson.press("left", "enter", "up", every=0.1)
+    lesson.press("left", "enter", every=0.1)
     lesson.run(1, input=["Ada"])
-    assert capsys.readouterr().out.splitlines() == ["-1 0.5", "True 10", "[27, 91, 65]", "-1", "name? Ada", "Ada"]
+    assert capsys.readouterr().out.splitlines() == ["-1 0.5", "True 10", "-1", "name? Ada", "Ada"]
 
 
 @pytest.mark.parametrize(
@@ -369,7 +367,6 @@ def test_curses_waits_for_keys_in_robot_time(lesson: Lesson, begin: Begin, capsy
             "AttributeError: curses.window.getkey is not available here: of curses a program",
         ),
         ("curses.initscr().addstr(24, 0, 'below')", "curses.error: addwstr() returned ERR"),
-        ("curses.initscr().addstr(0, 0, 1.5)", "TypeError: expect bytes or str, got float"),
     ],
 )
 def test_what_curses_cannot_do_is_said(lesson: Lesson, begin: Begin, capsys: Any, use: str, said: str) -> None:

@@ -10,14 +10,13 @@ import enum
 import sys
 import threading
 from collections.abc import Callable
-from copy import deepcopy
 from dataclasses import dataclass
 from functools import partial
 from types import ModuleType
 
 from .. import hooks
 from ..sim.keyboard import SENT, KeyReader
-from .terminals import FLAGS, LFLAG, ProgramInput, terminal_of
+from .terminals import ProgramInput, terminal_of
 
 # -- curses ------------------------------------------------------------------------------------------------------------
 
@@ -43,11 +42,9 @@ class Window:
         self._shown: dict[int, str] = {}
         self._place = (0, 0)
         self._patience: float | None = None
-        self._keypad = False
 
     def keypad(self, flag: bool) -> None:
-        """Whether an arrow key comes as one number, such as KEY_UP, instead of three characters."""
-        self._keypad = bool(flag)
+        """Does nothing: an arrow key always comes as one number, such as KEY_UP."""
 
     def nodelay(self, flag: bool) -> None:
         """Whether `getch` does not wait for a key."""
@@ -63,7 +60,7 @@ class Window:
         if not self._terminal.is_ready(self._patience):
             return -1
         for name, number in ARROWS.items():
-            if self._keypad and self._terminal.typed.startswith(SENT[name]):
+            if self._terminal.typed.startswith(SENT[name]):
                 self._terminal.take(len(SENT[name]))
                 return number
         return ord(self._terminal.read(1))
@@ -71,10 +68,8 @@ class Window:
     def addstr(self, *arguments: int | str) -> None:
         """Write a text: `addstr([y, x,] text[, attribute])`. An attribute has no effect here."""
         *place, text = arguments if len(arguments) % 2 else arguments[:-1]
-        if not isinstance(text, str):
-            raise TypeError(f"expect bytes or str, got {type(text).__name__}")  # Python's words
         y, x = (int(each) for each in place or self._place)
-        for number, line in enumerate(text.split("\n")):
+        for number, line in enumerate(str(text).split("\n")):
             y, x = (y + 1, 0) if number else (y, x)
             if not 0 <= y < LINES or x < 0:
                 raise error("addwstr() returned ERR")
@@ -112,30 +107,28 @@ _lacking_in_pynput = partial(_lacking, "pynput", "keyboard.Listener, Key and Key
 
 
 def initscr() -> Window:
-    """The whole screen."""
+    """The whole screen. From now on the program gets each key at once."""
     terminal = terminal_of(0)
     if terminal is None or not terminal.isatty():
         raise error("curses needs a terminal, and the input of this program is a file or a pipe")
+    terminal.raw = True
+    terminal.process.simulation.keyboard.reads_keys(terminal)
     return Window(terminal)
 
 
-def _set_line_mode(on: bool) -> None:
-    """Whether the program gets whole lines (`nocbreak`, `endwin`), or each key at once (`cbreak`)."""
+def endwin() -> None:
+    """End curses: the terminal is again as it was set before."""
     if (terminal := terminal_of(0)) is not None:
-        settings = deepcopy(terminal.settings)
-        settings[LFLAG] = settings[LFLAG] | FLAGS["ICANON"] if on else settings[LFLAG] & ~FLAGS["ICANON"]
-        terminal.apply(settings)
+        terminal.apply(terminal.settings)
 
 
 def wrapper(function: Callable[..., object], /, *arguments: object, **options: object) -> object:
     """Call a function with the screen, and end curses after it."""
     screen = initscr()
-    screen.keypad(True)
-    _set_line_mode(False)
     try:
         return function(screen, *arguments, **options)
     finally:
-        _set_line_mode(True)
+        endwin()
 
 
 def make_curses() -> ModuleType:
@@ -143,11 +136,9 @@ def make_curses() -> ModuleType:
     curses = ModuleType("curses")
     curses.__dict__.update(
         {f"KEY_{name.upper()}": number for name, number in ARROWS.items()},
-        **dict.fromkeys(("echo", "noecho", "curs_set"), lambda *_: None),
-        **{"error": error, "window": Window, "initscr": initscr, "wrapper": wrapper, "__getattr__": _lacking_in_curses},
-        cbreak=partial(_set_line_mode, False),
-        nocbreak=partial(_set_line_mode, True),
-        endwin=partial(_set_line_mode, True),
+        **dict.fromkeys(("cbreak", "nocbreak", "echo", "noecho", "curs_set"), lambda *_: None),
+        **{"error": error, "window": Window, "initscr": initscr, "endwin": endwin, "wrapper": wrapper},
+        __getattr__=_lacking_in_curses,
     )
     return curses
 
