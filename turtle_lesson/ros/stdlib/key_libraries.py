@@ -150,14 +150,12 @@ def make_curses() -> ModuleType:
 class KeyCode:
     """A key that gives a character."""
 
-    vk: int | None = None
     char: str | None = None
-    is_dead: bool = False
 
     @classmethod
     def from_char(cls, char: str) -> KeyCode:
         """The key of a character."""
-        return cls(char=char)
+        return cls(char)
 
     def __repr__(self) -> str:
         return repr(self.char)
@@ -204,9 +202,6 @@ class Listener(threading.Thread):
     def running(self) -> bool:
         """Whether it listens."""
         return self.is_alive() and not self._reader.stopped
-
-    def wait(self) -> None:
-        """Wait until it listens, which it does as soon as it is started."""
 
     def __enter__(self) -> Listener:
         self.start()
