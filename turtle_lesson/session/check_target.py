@@ -12,7 +12,7 @@ from ..ros.sim.errors import DriveTimeout, NeverReturns, SimulationError, WorldC
 from ..ros.sim.interrupts import work_done
 from ..ros.sim.run_blocking import drive
 from ..ros.sim.simulation import NANOSECONDS
-from .live import LONGEST_CALLBACK, CellNodes
+from .live import LONGEST_CALLBACK, CellNodes, OfWorld
 
 if TYPE_CHECKING:
     from ..lab.recorder import ObstacleBoard, Recorder
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..ros.sim.strand import Strand
 
 
-class CheckTarget:
+class CheckTarget(OfWorld):
     """What a `Probe` of a check (see lab/checks/probe.py) looks at.
 
     A node that was made in a cell is only alive while that cell spins it. While a check looks, such nodes are spun; what
@@ -28,22 +28,12 @@ class CheckTarget:
     """
 
     def __init__(self, world: World, recording: Recorder, board: ObstacleBoard) -> None:
-        self._world = world
+        super().__init__(world)
         self.recording = recording
         self.node = recording.node
         self.board = board
         self._errors: list[tuple[str, Exception]] = []
         self._cells = CellNodes(world)
-
-    @property
-    def now(self) -> float:
-        """Robot time: seconds since the world began."""
-        return self._world.now / NANOSECONDS
-
-    @property
-    def ended(self) -> bool:
-        """Whether a newer `start()` has taken this world's place."""
-        return self._world.sim.closed
 
     @property
     def errors(self) -> list[tuple[str, Exception]]:

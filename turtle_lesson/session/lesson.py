@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
@@ -17,12 +17,11 @@ from ..ros.distro import chosen_release
 from ..ros.idl.registry import registry
 from ..ros.rmw.network import Conditions, set_conditions
 from ..ros.runtime import files
-from ..ros.runtime.files import CellOutput
 from ..ros.runtime.world import World, open_world
 from ..ros.sim.keyboard import key_named
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
 from ..ros.tools import demo_packages, program, tf2_packages
-from .live import Player, SimBackend
+from .live import Player, SimBackend, start_simulator
 from .robot import real_ros
 from .views import Inspection
 
@@ -125,8 +124,7 @@ class Lesson(Inspection):
         world.keep_trace()
         world.spawn(self._lab, name="lab", argv=["lab"])
         if simulator:
-            out = CellOutput(world.sim)
-            world.spawn(SIMULATOR, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
+            start_simulator(world)
         world.sim.settle()
 
     def __repr__(self) -> str:
@@ -322,16 +320,12 @@ class Lesson(Inspection):
 # -- the packages of a world -------------------------------------------------------------------------------------------
 
 
-SIMULATOR: Callable[[], object] = program("turtle_lesson.turtlesim.node")
-"""What runs the turtle simulator."""
-
-
 def underlay_packages() -> list[Package]:
     """The packages of a fresh ROS 2 whose programs `ros2 run` and launch files find: turtlesim, tf2, demos, xacro."""
     names = ("draw_square", "mimic", "turtle_teleop_key")
     programs = {name: program("turtle_lesson.turtlesim.tutorials", name) for name in names}
-    turtlesim = Package("turtlesim", HERE / "turtlesim", executables={"turtlesim_node": SIMULATOR, **programs})
-    packages = [turtlesim, *tf2_packages(), *demo_packages()]
+    programs = {"turtlesim_node": program("turtle_lesson.turtlesim.node"), **programs}
+    packages = [Package("turtlesim", HERE / "turtlesim", executables={**programs}), *tf2_packages(), *demo_packages()]
     xacro = find_spec("xacro")  # a package of PyPI, which may be installed
     if xacro is not None and xacro.origin is not None:
         packages.append(Package("xacro", Path(xacro.origin).parent, executables={"xacro": program("xacro")}))

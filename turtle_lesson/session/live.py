@@ -6,6 +6,7 @@ import asyncio
 from collections import deque
 from typing import TYPE_CHECKING
 
+from ..ros.runtime.files import CellOutput
 from ..ros.sim.errors import print_error
 from ..ros.sim.run_blocking import drive
 from ..ros.sim.simulation import NANOSECONDS
@@ -37,6 +38,29 @@ MOST = 1e6
 
 LONGEST_CALLBACK = 150 * NANOSECONDS
 """Robot time, in ns, for which a callback or function of a cell may hold a check or live mode up."""
+
+
+class OfWorld:
+    """What looks at a world of this notebook."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+
+    @property
+    def now(self) -> float:
+        """Robot time: seconds since the world began."""
+        return self._world.now / NANOSECONDS
+
+    @property
+    def ended(self) -> bool:
+        """Whether a newer `start()` has taken this world's place."""
+        return self._world.sim.closed
+
+
+def start_simulator(world: World) -> None:
+    """Start the turtle simulator, which prints to the cell that runs."""
+    out, target = CellOutput(world.sim), world.packages.executable("turtlesim", "turtlesim_node")
+    world.spawn(target, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
 
 
 class CellNodes:
@@ -207,13 +231,13 @@ class Stopwatch:
         return (after - before) / NANOSECONDS / max(last - first, 1e-9)
 
 
-class SimBackend:
+class SimBackend(OfWorld):
     """What the widgets see (`Link` in lab/widgets/backend.py) of a world of this notebook, with its player as the clock."""
 
     def __init__(self, world: World, recorder: Recorder, player: Player, board: ObstacleBoard) -> None:
         from ..lab.widgets.backend import Loop
 
-        self._world = world
+        super().__init__(world)
         self.recorder = recorder
         self.board = board
         self.node = recorder.node
@@ -221,13 +245,3 @@ class SimBackend:
         self.keyboard = world.sim.keyboard
         self.loop = Loop()
         self.at_close = world.at_close
-
-    @property
-    def now(self) -> float:
-        """Robot time: seconds since the world began."""
-        return self._world.now / NANOSECONDS
-
-    @property
-    def ended(self) -> bool:
-        """Whether a newer `start()` has taken this world's place."""
-        return self._world.sim.closed

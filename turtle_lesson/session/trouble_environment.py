@@ -17,8 +17,9 @@ from ..ros.cli import colcon
 from ..ros.cli.jobs import jobs
 from ..ros.idl.names import module_name
 from ..ros.idl.registry import registry
-from ..ros.runtime.files import CellOutput, home
+from ..ros.runtime.files import home
 from ..ros.sim.process import Process
+from .live import OfWorld, start_simulator
 
 if TYPE_CHECKING:
     from ..lab.troubles.faults import Program
@@ -42,7 +43,7 @@ class _SourcedBefore(list[Path]):
     """The install folders that were sourced when a world's first case was opened."""
 
 
-class TroubleEnvironment:
+class TroubleEnvironment(OfWorld):
     """What a trouble (see lab/troubles/cases.py) is put into: a world of this notebook.
 
     Where the learner's own package is sourced when the first case is opened, the cases are about that one. Its files are
@@ -50,7 +51,7 @@ class TroubleEnvironment:
     """
 
     def __init__(self, world: World) -> None:
-        self._world = world
+        super().__init__(world)
         sourced = list(dict.fromkeys(each.install for each in overlays(world)))
         self._sourced = world.notebook.state(_SourcedBefore, sourced)
         if "robot_draft" not in world.packages:
@@ -60,11 +61,6 @@ class TroubleEnvironment:
                 code = f"import small_nodes\nsmall_nodes.run(small_nodes.{node})\n"
                 programs[name] = PythonProgram(DRAFTS / name, (), code)
             world.packages.add(Package("robot_draft", DRAFTS, executables=programs))
-
-    @property
-    def ended(self) -> bool:
-        """Whether a newer `start()` has taken this world's place."""
-        return self._world.sim.closed
 
     def clear(self) -> None:
         """Ctrl-C for every program but the simulator; the simulator and the package are there again, as before."""
@@ -76,9 +72,7 @@ class TroubleEnvironment:
             if process.name not in STAYS:
                 process.kill()
         if not any(process.name.startswith("turtlesim") for process in self._programs()):
-            out = CellOutput(self._world.sim)
-            target = self._world.packages.executable("turtlesim", "turtlesim_node")
-            self._world.spawn(target, name="turtlesim", argv=["turtlesim_node"], stdout=out, stderr=out)
+            start_simulator(self._world)
         remove_all(self._world)
         remove_scratch()
         for folder in self._sourced:

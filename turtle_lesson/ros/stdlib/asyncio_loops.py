@@ -109,8 +109,9 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
             "asyncio tasks, queues, events, sleep and run_in_executor work, and signal.signal."
         )
 
-    add_reader = add_writer = sock_connect = sock_recv = sock_sendall = subprocess_exec = subprocess_shell = _refused  # type: ignore[assignment]
-    create_connection = create_datagram_endpoint = create_server = create_unix_connection = add_signal_handler = _refused
+    add_reader = add_writer = add_signal_handler = sock_connect = sock_recv = sock_sendall = _refused  # type: ignore[assignment]
+    subprocess_exec = subprocess_shell = create_connection = create_datagram_endpoint = create_server = _refused
+    create_unix_connection = _refused
 
 
 # -- loop functions ----------------------------------------------------------------------------------------------------

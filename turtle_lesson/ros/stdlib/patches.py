@@ -183,7 +183,7 @@ TABLE: tuple[Patch, ...] = (
     _in_process("os", lambda strand, code: strand.process.end_now(code), "ends one process", "_exit", cells=False),
     _function("os", terminals.read, "reads the program's own terminal"),
     *(_function("os", process_state.tell_system, VARIABLES, name) for name in ("putenv", "unsetenv")),
-    *(_refused(owner, name) for owner, names in subprocesses.OF_THE_COMPUTER.items() for name in names),
+    *(_refused(owner, name) for owner, names in subprocesses.OF_THE_COMPUTER.items() for name in names.split()),
     *(
         _function(owner, process_state.with_modules, MODULES, name)
         for owner, name in process_state.LOOKS_INTO_SYS_MODULES

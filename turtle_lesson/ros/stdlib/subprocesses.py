@@ -184,9 +184,9 @@ def first_window(real: Any, self: Any, *arguments: Any, **keywords: Any) -> None
 
 
 OF_THE_COMPUTER = {
-    "_thread": ("start_new_thread",),
-    "os": ("fork", "forkpty"),
-    "signal": ("alarm", "pause", "pthread_kill", "set_wakeup_fd", "setitimer", "sigtimedwait", "sigwait", "sigwaitinfo"),
+    "_thread": "start_new_thread",
+    "os": "fork forkpty",
+    "signal": "alarm pause pthread_kill set_wakeup_fd setitimer sigtimedwait sigwait sigwaitinfo",
 }
 """By module, the functions that are refused."""
 
