@@ -63,8 +63,8 @@ class FakeProcess:
     def kill(self) -> None:
         self.end(-9)
 
-    def handles(self, number: int) -> bool:
-        return False
+    def send_signal(self, number: int) -> None:
+        self.end(-number)
 
 
 class FakeWorld:

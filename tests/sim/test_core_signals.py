@@ -62,7 +62,7 @@ def test_without_a_handler_signals_do_what_they_do(world: World) -> None:
     world.sim.run_until(SECOND)
     processes[0].interrupt()
     processes[1].send_signal(signal.SIGTERM)
-    assert [process.exit_code for process in processes] == [-2, -9]
+    assert [process.exit_code for process in processes] == [-2, -15]
 
 
 def test_getsignal_knows_what_was_set(run: Run) -> None:

@@ -27,9 +27,6 @@ from ..sim.process import Process
 if TYPE_CHECKING:
     from .service import LaunchService
 
-TERMINATED = -15
-"""The exit code of a process that was ended by SIGTERM, as launch prints it."""
-
 START_UP = 300_000_000
 """How long, in ns, a Python program takes from its process's start to its first line. Those of a launch take turns."""
 
@@ -85,7 +82,6 @@ class RunningProcess:
         self.name = action.name
         self.process: Process | None = None
         self._retries = 0
-        self._terminated = False
 
     @property
     def alive(self) -> bool:
@@ -138,7 +134,7 @@ class RunningProcess:
     def report_end(self) -> None:
         """Print how it ended."""
         assert self.process is not None
-        code = TERMINATED if self._terminated else self.process.exit_code
+        code = self.process.exit_code
         self.action.return_code = code
         if code == 0:
             self.service.say("INFO", self.name, f"process has finished cleanly [pid {self.process.pid}]")
@@ -170,11 +166,7 @@ class RunningProcess:
             how = f"'{patience}' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
             self.service.say("ERROR", self.name, f"process[{self.name}] failed to terminate {how}")
             self.announce("SIGTERM")
-            if self.process.handles(signal.SIGTERM):
-                self.process.send_signal(signal.SIGTERM)
-            else:
-                self._terminated = True
-                self.process.kill()
+            self.process.send_signal(signal.SIGTERM)
 
         self.service.call_later(float(patience), terminate)
 

@@ -38,15 +38,7 @@ class Output(Protocol):
 class Killed(SystemExit):
     """Ends a process that is not asked."""
 
-
-class SignalHook(Protocol):
-    """What a library does about signals before the program hears of them."""
-
-    def takes(self, number: int) -> bool:
-        """Whether a signal is dealt with by the library alone."""
-
-    def hear(self, number: int) -> bool:
-        """A signal comes; True if that is the end of it."""
+    code: int
 
 
 S = TypeVar("S")
@@ -67,7 +59,7 @@ class Process:
         exit_functions: called after that, the last one first: what the program gave to `atexit.register`.
         at_exit: called at the very end, the last one first, however the process ends: what libraries clean up.
         signal_handlers: as the program has set them with `signal.signal`, by the number of the signal; else SIG_DFL.
-        signal_hook: what a library does about signals before that.
+        signal_hook: called with a signal before that, by a library; returns whether that is the end of it.
         noticed: whether a notice has said that it holds up robot time.
     """
 
@@ -101,7 +93,7 @@ class Process:
         self.exit_functions: list[partial[object]] = []
         self.at_exit: list[Callable[[], None]] = []
         self.signal_handlers: dict[int, Any] = {signal.SIGINT: signal.default_int_handler}
-        self.signal_hook: SignalHook | None = None
+        self.signal_hook: Callable[[int], bool] | None = None
         self.noticed = False
         self.error: BaseException | None = None
         self.is_notebook = False
@@ -153,29 +145,24 @@ class Process:
                 process.interrupt()
         self.send_signal(signal.SIGINT)
 
-    def handles(self, number: int) -> bool:
-        """Whether the program has a handler for a signal, its own or a library's, and can run it."""
-        hook, is_set = self.signal_hook, self.signal_handlers.get(number, signal.SIG_DFL) is not signal.SIG_DFL
-        return bool(self.main_strand) and (is_set or (hook is not None and hook.takes(number)))
-
     def send_signal(self, number: int) -> None:
         """Have the process get a signal: its own handler is called in the main strand, or does what Python does."""
         main, hook, handler = self.main_strand, self.signal_hook, self.signal_handlers.get(number, signal.SIG_DFL)
-        if not self.alive or (hook is not None and hook.hear(number)) or handler is signal.SIG_IGN:
+        if not self.alive or (hook is not None and hook(number)) or handler is signal.SIG_IGN:
             return
         if handler is signal.default_int_handler:
             self._end_main(KeyboardInterrupt())
         elif not main or not callable(handler):
-            self.kill()
+            self.kill(-number)
         elif main is running_strand():
             handler(number, sys._getframe(1))
         else:
             self.simulation.call_in(main, lambda: handler(number, sys._getframe(2)))
 
-    def kill(self) -> None:
+    def kill(self, code: int = KILLED) -> None:
         """End the process without asking; its `finally` blocks still run, but none of them may wait."""
-        self._end_main(Killed(KILLED))
-        self.abandon(None)
+        self._end_main(Killed(code))
+        self._finish(code)
 
     def end_now(self, code: int) -> None:
         """End the process in its middle; its running strand never returns from here."""
@@ -191,22 +178,20 @@ class Process:
         self.stdout = self.stderr = StringIO()
         self.kill()
 
-    def abandon(self, reason: str | None) -> None:
+    def abandon(self, reason: str) -> None:
         """Take the process for dead although its program has not ended: it never runs again."""
-        if not self.alive:
-            return
-        if reason:
+        if self.alive:
             print(f"{self.name}: given up, because {reason}", file=self.stderr or sys.stderr)
         self._finish(KILLED)
 
-    def _end_main(self, error: BaseException) -> None:
+    def _end_main(self, error: KeyboardInterrupt | Killed) -> None:
         main = self.main_strand
         if not self.alive or main is None:
             return
         if main is running_strand():
             raise error
         if not main:  # it has not even begun
-            self._finish(INTERRUPTED if isinstance(error, KeyboardInterrupt) else KILLED)
+            self._finish(error.code if isinstance(error, Killed) else INTERRUPTED)
             return
         self.simulation.raise_in(main, error)
 
@@ -217,8 +202,8 @@ class Process:
             if self.alive:
                 hooks.wind_down(self)
             code = ended_with
-        except Killed:  # in the program, or while it was waiting for its threads
-            pass
+        except Killed as error:  # in the program, or while it was waiting for its threads
+            code = error.code
         finally:
             self._finish(code)
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import codecs
 import io
 import os
-import signal
 import subprocess
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -34,7 +33,6 @@ class WorldPopen(_Real):
     __module__ = "subprocess"
     __qualname__ = "Popen"
     _process: Process | None = None  # which runs the child in the world; None for one of the computer
-    _terminated = False
 
     def __init__(self, args: Any, *positional: Any, **given: Any) -> None:
         everything = _SIGNATURE.bind(args, *positional, **given).arguments
@@ -83,7 +81,7 @@ class WorldPopen(_Real):
         if self._process is None:
             return super().poll()
         if self.returncode is None and self._process.exit_code is not None:
-            self.returncode = -signal.SIGTERM if self._terminated else self._process.exit_code
+            self.returncode = self._process.exit_code
         return self.returncode
 
     def wait(self, timeout: float | None = None) -> int:
@@ -106,7 +104,6 @@ class WorldPopen(_Real):
         if self._process is None:
             super().send_signal(sig)
         elif self.poll() is None:
-            self._terminated = sig == signal.SIGTERM and not self._process.handles(sig)
             self._process.send_signal(sig)
 
 

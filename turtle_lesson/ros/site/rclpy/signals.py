@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import signal
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from turtle_lesson.ros.runtime.world import current_process
 
@@ -35,20 +35,14 @@ class _Handlers:
         self._process = process
         self._before = dict(process.signal_handlers)
 
-    def _is_set(self, number: int) -> bool:
-        wanted = self.options.value & {signal.SIGINT: 1, signal.SIGTERM: 2}.get(signal.Signals(number), 0)
-        return bool(wanted) and self._process.signal_handlers.get(number) is self._before.get(number)
-
-    def takes(self, number: int) -> bool:
-        """Whether a signal is handled here alone."""
-        return number == signal.SIGTERM and self._is_set(number)
-
-    def hear(self, number: int) -> bool:
+    def __call__(self, number: int) -> bool:
         """A signal comes; True if that is the end of it."""
-        if self._is_set(number):
-            for context in list(self._process.state(RclpyState).contexts):
-                context.shut_down_by_signal()
-        return self.takes(number)
+        wanted = self.options.value & {signal.SIGINT: 1, signal.SIGTERM: 2}.get(signal.Signals(number), 0)
+        if not wanted or self._process.signal_handlers.get(number) is not self._before.get(number):
+            return False
+        for context in list(self._process.state(RclpyState).contexts):
+            context.shut_down_by_signal()
+        return number == signal.SIGTERM
 
 
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
@@ -61,7 +55,7 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
     """Which signals rclpy handles now."""
-    hook: Any = current_process().signal_hook
+    hook = current_process().signal_hook
     return hook.options if isinstance(hook, _Handlers) else SignalHandlerOptions.NO
 
 
