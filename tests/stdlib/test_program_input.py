@@ -117,16 +117,6 @@ def test_lines_given_to_a_run_are_typed_for_the_programs_that_ask(capsys: Any, t
         lesson.run(1, input=[3])  # type: ignore[list-item]
 
 
-def test_of_several_programs_each_says_which_one_asks(capsys: Any, tmp_path: Path) -> None:
-    lesson = start(simulator=False)
-    path = tmp_path / "asker.py"
-    path.write_text("import time\nwhile True:\n    time.sleep(1)\n    input('speed? ')\n")
-    for name in ("one", "two"):
-        lesson._world.spawn(path, name=name)
-    lesson.run(2.5, input=["1", "2", "3", "4"])
-    assert capsys.readouterr().out.splitlines() == ["speed? 1", "[two] speed? 2", "[one] speed? 3", "[two] speed? 4"]
-
-
 def test_a_loop_that_asks_and_publishes_lets_the_robot_move(
     capsys: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -66,7 +66,6 @@ class Keyboard:
         self._simulation = simulation
         self._last: tuple[Process, int, int] | None = None
         self._readers: list[KeyReader] = []
-        self._askers: list[Process] = []
 
     # -- keys --------------------------------------------------------------------------------------------------------------
 
@@ -100,7 +99,7 @@ class Keyboard:
     # -- lines -------------------------------------------------------------------------------------------------------------
 
     def line(self, process: Process, prompt: str) -> str:
-        """The next line that is typed for a program, without its line end. Of several that ask each says its name.
+        """The next line that is typed for a program, without its line end.
 
         Raises:
             EOFError: if no line was typed ahead and the cell cannot be asked.
@@ -111,10 +110,6 @@ class Keyboard:
             asker, now, events = self._last
             if asker is process and simulation.now - now < MOMENT and simulation.events != events:
                 simulation.sleep_until(simulation.now + TYPING)
-        self._askers = [asker for asker in self._askers if asker.alive and asker is not process]
-        if self._askers:
-            prompt = f"[{process.name}] {prompt}"
-        self._askers.append(process)
         if not self.lines:
             self._wait_for_a_cell(process, prompt)
         if self.lines:
