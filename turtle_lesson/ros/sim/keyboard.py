@@ -123,8 +123,8 @@ class Keyboard:
     def _wait_for_a_cell(self, process: Process, prompt: str) -> None:
         """In live mode and between two cells Jupyter shows no prompt: go on in the next cell that lets time pass."""
         if self.live or _is_between_cells():
-            asks = f"{process.name} asks {prompt.strip()!r}" if prompt.strip() else f"{process.name} asks for a line"
-            print(f"{asks}: to answer, run a cell such as lesson.run(1).", file=process.stdout or sys.stdout)
+            asks = f"{process.name} asks {prompt.strip()!r}: to answer, run a cell such as lesson.run(1)."
+            print(asks, file=process.stdout or sys.stdout)
         while (self.live or _is_between_cells()) and not self.lines:
             self._simulation.sleep_until(self._simulation.now + PAUSE)
 

@@ -69,7 +69,6 @@ class ProgramInput(KeyReader, TextIOBase):
         self.returns = False
         self.patience: float | None = None
         self.typed = ""
-        self._given = 0
 
     def hear(self, name: str, down: bool) -> None:
         """A key was pressed: Ctrl-C interrupts, all others are characters. A terminal knows of no key that is let go of."""
@@ -88,10 +87,8 @@ class ProgramInput(KeyReader, TextIOBase):
         line = source.readline()
         if not line:
             error = EOFError(END)
-            lines = "1 line" if self._given == 1 else f"{self._given} lines"
-            error.add_note(f"The program asked for another line after it had read all of its input ({lines}).")
+            error.add_note("The program asked for another line after it had read all of its input.")
             raise error
-        self._given += 1
         return line.removesuffix("\n")
 
     def isatty(self) -> bool:
