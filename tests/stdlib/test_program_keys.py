@@ -217,10 +217,8 @@ def test_a_program_on_windows(lesson: Lesson, begin: Begin, capsys: Any, monkeyp
 def test_keys_that_nobody_reads_and_names_that_are_none(lesson: Lesson) -> None:
     with pytest.raises(RuntimeError, match="no running program reads keys, so 'w' was not pressed"):
         lesson.press("w")
-    with pytest.raises(ValueError, match=r"Several keys are several arguments: press\(\*'wwd'\)"):
+    with pytest.raises(ValueError, match=r"got 'wwd': several keys are several arguments"):
         lesson.press("wwd")
-    with pytest.raises(ValueError, match='Did you mean "enter"'):
-        lesson.press("Entre")
 
 
 def test_a_pipe_is_no_terminal(lesson: Lesson, begin: Begin, capsys: Any) -> None:

@@ -8,7 +8,6 @@ from Python's own `input`. Robot time stands still while somebody thinks about a
 from __future__ import annotations
 
 import builtins
-import difflib
 import sys
 import time
 from collections import deque
@@ -224,7 +223,7 @@ def key_named(key: object) -> str:
     name = key.removeprefix("Arrow").lower()
     name = _OF_BROWSERS.get(name, name)
     if name not in SENT:
-        close = difflib.get_close_matches(name, SENT, n=1)
-        hint = f'Did you mean "{close[0]}"?' if close else f"Several keys are several arguments: press(*{key!r})."
-        raise ValueError(f'a key is one character or a name such as "up" or "enter", got {key!r}. {hint}')
+        raise ValueError(
+            f'a key is one character or a name such as "up" or "enter", got {key!r}: several keys are several arguments'
+        )
     return name
