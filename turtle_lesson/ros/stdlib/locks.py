@@ -82,10 +82,6 @@ class VirtualLock:
     def __exit__(self, *error: object) -> None:
         self.release()
 
-    def __repr__(self) -> str:
-        state = "locked" if self.locked() else "unlocked"
-        return f"<{state} _thread.lock object at {id(self):#x}>"
-
     def _wake_one(self) -> None:
         if self._waiters:
             strand = self._waiters[0]
