@@ -27,7 +27,7 @@ from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from rosidl_runtime_py import message_to_ordereddict
 from tf2_py._rotation import matrix_of
-from tf2_ros import Buffer, StaticTransformBroadcaster, TransformException, TransformListener
+from tf2_ros import Buffer, StaticTransformBroadcaster, TransformListener
 from tf_transformations import euler_from_matrix, quaternion_from_euler
 
 from . import spin
@@ -39,7 +39,6 @@ class Echo(Node):
     def __init__(self, source: str, target: str, rate: float) -> None:
         super().__init__("tf2_echo")
         self._source, self._target = source, target
-        self._found = False
         self._buffer = Buffer()
         self._listener = TransformListener(self._buffer, self)
         self.create_timer(1.0 / rate, self.look)
@@ -47,18 +46,12 @@ class Echo(Node):
 
     def look(self) -> None:
         """Look once, and print what is there."""
-        if not self._found:
-            asked = (self._source, self._target, Time())
-            self._found, why_not = self._buffer.can_transform(*asked, return_debug_tuple=True)
-            if not self._found:
-                self.get_logger().info(f"Waiting for transform {self._source} ->  {self._target}: {why_not}")
-                return
-        try:
-            print(text_of(self._buffer.lookup_transform(self._source, self._target, Time())))
-        except TransformException as error:
-            now = self.get_clock().now().nanoseconds / 1e9
-            print(f"Failure at {now:.6f}\nException thrown:{error}\nThe current list of frames is:")
-            print(self._buffer.all_frames_as_string())
+        asked = (self._source, self._target, Time())
+        found, why_not = self._buffer.can_transform(*asked, return_debug_tuple=True)
+        if found:
+            print(text_of(self._buffer.lookup_transform(*asked)))
+        else:
+            self.get_logger().info(f"Waiting for transform {self._source} ->  {self._target}: {why_not}")
 
 
 def text_of(transform: TransformStamped) -> str:
