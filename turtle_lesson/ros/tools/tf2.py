@@ -18,11 +18,9 @@ from typing import Any
 import rclpy
 import yaml
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
-from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.executors import ExternalShutdownException
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from rosidl_runtime_py import message_to_ordereddict
@@ -183,20 +181,15 @@ def read_words(words: list[str]) -> TransformStamped:
 
 
 class StaticPublisher(Node):
-    """Tells of one frame; its figures are parameters that can only be read."""
+    """Tells of one frame."""
 
     def __init__(self, message: TransformStamped) -> None:
         letters = "".join(random.choice(string.ascii_letters + string.digits) for _ in range(16))
-        figures = message_to_ordereddict(message.transform)
-        parameters = {f"{part}.{axis}": value for part, axes in figures.items() for axis, value in axes.items()}
-        parameters |= {"frame_id": message.header.frame_id, "child_frame_id": message.child_frame_id}
-        overrides = [Parameter(name, value=value) for name, value in parameters.items()]
-        super().__init__(f"static_transform_publisher_{letters}", parameter_overrides=overrides)
-        for name, value in parameters.items():
-            self.declare_parameter(name, value, ParameterDescriptor(read_only=True))
+        super().__init__(f"static_transform_publisher_{letters}")
         self._broadcaster = StaticTransformBroadcaster(self)
         message.header.stamp = self.get_clock().now().to_msg()
         self._broadcaster.sendTransform(message)
+        figures = message_to_ordereddict(message.transform)
         translation, rotation = (", ".join(f"'{value:f}'" for value in axes.values()) for axes in figures.values())
         told = f"translation: ({translation})\nrotation: ({rotation})\n"
         told += f"from '{message.header.frame_id}' to '{message.child_frame_id}'"
