@@ -10,10 +10,8 @@ from functools import partial
 
 import rclpy
 from example_interfaces.srv import AddTwoInts
-from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, qos_profile_sensor_data
-from rclpy.task import Future
 from std_msgs.msg import String
 
 from .. import spin
@@ -73,31 +71,12 @@ add_two_ints_server = partial(spin, Adder)
 
 
 def add_two_ints_client() -> None:
-    """`add_two_ints_client`: asks for 2 + 3 once a server is there, logs the answer, and ends."""
-    node, client = _client()
-    future = client.call_async(AddTwoInts.Request(a=2, b=3))
-    rclpy.spin_until_future_complete(node, future)
-    node.get_logger().info(f"Result of add_two_ints: {future.result().sum}")
-
-
-def add_two_ints_client_async() -> None:
-    """`add_two_ints_client_async`: the same, but the answer comes to a callback."""
-    node, client = _client()
-    answered = Future()
-
-    def hear(future: Future) -> None:
-        node.get_logger().info(f"Result of add_two_ints: {future.result().sum}")
-        answered.set_result(True)
-
-    client.call_async(AddTwoInts.Request(a=2, b=3)).add_done_callback(hear)
-    rclpy.spin_until_future_complete(node, answered)
-
-
-def _client() -> tuple[Node, Client]:
-    """A node, and its client of `add_two_ints`, whose server is there."""
+    """`add_two_ints_client` and `…_client_async`: asks for 2 + 3 once a server is there, logs the answer, and ends."""
     rclpy.init()
     node = rclpy.create_node("add_two_ints_client")
     client = node.create_client(AddTwoInts, "add_two_ints")
     while not client.wait_for_service(timeout_sec=1.0):
         print("service not available, waiting again...")
-    return node, client
+    future = client.call_async(AddTwoInts.Request(a=2, b=3))
+    rclpy.spin_until_future_complete(node, future)
+    node.get_logger().info(f"Result of add_two_ints: {future.result().sum}")
