@@ -12,7 +12,7 @@ import errno
 import itertools
 import os
 import shutil
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import suppress
 from io import TextIOBase
 from pathlib import Path
@@ -123,11 +123,8 @@ def save(path: Path, text: str) -> None:
     place.write_text(text, encoding="utf-8")
 
 
-def copy(source: Path, target: Path, left_out: Callable[[str, list[str]], Iterable[str]] | None = None) -> None:
-    """Copy a file, or a folder with all that is in it; links in it stay links. Raises OSError, also where `check` refuses.
-
-    `left_out` is what `shutil.ignore_patterns` returns.
-    """
+def copy(source: Path, target: Path) -> None:
+    """Copy a file, or a folder with all that is in it; links in it stay links. Raises OSError, also where `check` refuses."""
     if source.is_symlink():
         place = check(target, follow=False)
         place.unlink(missing_ok=True)
@@ -135,13 +132,11 @@ def copy(source: Path, target: Path, left_out: Callable[[str, list[str]], Iterab
     elif source.is_dir():
         place = check(target)
         if target.is_symlink():  # through which a folder could be copied into itself, for ever
-            raise FileExistsError(
-                errno.EEXIST, "a link has its name, and no folder takes the place of a link", str(target)
-            )
+            why = "a link has its name, and no folder takes the place of a link"
+            raise FileExistsError(errno.EEXIST, why, str(target))
         place.mkdir(parents=True, exist_ok=True)
-        names = os.listdir(source)
-        for name in sorted({*names} - {*(left_out(str(source), names) if left_out else ())}):
-            copy(source / name, target / name, left_out)
+        for name in sorted(os.listdir(source)):
+            copy(source / name, target / name)
     else:
         shutil.copy(source, check(target))
 
