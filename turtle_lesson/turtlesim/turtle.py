@@ -63,25 +63,12 @@ most a pen's width. That costs one dictionary look-up a tick.
 
 
 def draw(cells: Cells, start: tuple[float, float], end: tuple[float, float], colour: Colour) -> None:
-    """Draw a straight line between two points, (x, y) in metres, as far as it lies in the picture."""
-    (x0, y0), (x1, y1) = start, end
+    """Draw a straight line between two points, (x, y) in metres; a point beyond the picture is moved to its edge."""
+    x0, y0, x1, y1 = (min(max(value, 0.0), _SIDE) for value in (*start, *end))
     dx, dy = x1 - x0, y1 - y0
-    begin, finish = _part_within(x0, dx, *_part_within(y0, dy, 0.0, 1.0))
-    if begin > finish:
-        return
-    # Two samples a cell leave no gap.
-    steps = int(max(abs(dx), abs(dy)) * (finish - begin) * _CELLS_PER_METRE * 2) + 1
+    steps = int(max(abs(dx), abs(dy)) * _CELLS_PER_METRE * 2) + 1  # two samples a cell leave no gap
     for step in range(steps + 1):
-        part = begin + (finish - begin) * step / steps
-        cells[cell_at(x0 + dx * part, y0 + dy * part)] = colour
-
-
-def _part_within(start: float, way: float, begin: float, finish: float) -> tuple[float, float]:
-    """Cut the part [begin, finish] of a way down to where start + part * way lies in the picture."""
-    if way == 0.0:
-        return (begin, finish) if 0.0 <= start <= _SIDE else (1.0, 0.0)
-    first, last = sorted((-start / way, (_SIDE - start) / way))
-    return max(begin, first), min(finish, last)
+        cells[cell_at(x0 + dx * step / steps, y0 + dy * step / steps)] = colour
 
 
 TICK_MS = 16
