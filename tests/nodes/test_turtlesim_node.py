@@ -255,7 +255,6 @@ def test_every_new_bump_is_reported(bench: Bench) -> None:
 def test_a_name_that_would_end_the_real_program_is_refused_with_an_error(bench: Bench) -> None:
     assert bench.call(Spawn, "/spawn", x=3.0, y=3.0, name="bad name").name == ""
     assert bench.log()[-1].startswith("[ERROR]: A turtle cannot be named [bad name]")
-    assert "try [bad_name]" in bench.log()[-1]
     assert bench.process.alive
 
 

@@ -298,21 +298,10 @@ def test_a_taken_name_and_an_unknown_one_are_refused_in_the_real_ones_words() ->
     assert list(world.turtles) == ["turtle1"]
 
 
-@pytest.mark.parametrize(
-    ("bad", "good"),
-    [
-        ("bad name", "bad_name"),
-        ("2fast", "turtle_2fast"),
-        ("Schildkröte", "Schildkr_te"),
-        ("a//b", "a_b"),
-        ("-", "turtle"),
-    ],
-)
-def test_a_name_that_ends_the_real_program_is_refused_with_a_better_one(bad: str, good: str) -> None:
-    world = TurtleWorld()
-    with pytest.raises(TurtleError, match=re.escape(f"cannot be named [{bad}]") + ".*" + re.escape(f"try [{good}]")):
-        world.spawn(1.0, 1.0, 0.0, bad)
-    assert world.spawn(1.0, 1.0, 0.0, good).name == good
+@pytest.mark.parametrize("bad", ["bad name", "2fast", "Schildkröte", "a//b", "-"])
+def test_a_name_that_ends_the_real_program_is_refused(bad: str) -> None:
+    with pytest.raises(TurtleError, match=re.escape(f"cannot be named [{bad}]")):
+        TurtleWorld().spawn(1.0, 1.0, 0.0, bad)
 
 
 @given(st.text(max_size=12))

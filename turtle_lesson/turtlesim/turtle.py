@@ -310,11 +310,9 @@ class TurtleWorld:
         elif name in self.turtles:
             raise TurtleError(f"A turtle named [{name}] already exists")
         elif not _NAME.fullmatch(name):
-            usable = re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
-            usable = usable if usable and not usable[0].isdigit() else f"turtle_{usable}".rstrip("_")
             raise TurtleError(
                 f"A turtle cannot be named [{name}]: its topic would be called [{name}/pose], and that name "
-                f"has only letters, digits and underscores, no digit first; try [{usable}]"
+                "has only letters, digits and underscores, no digit first"
             )
         x, y, theta = float32(x), float32(y), float32(theta)
         turtle = self.turtles[name] = Turtle(name, x, float32(HEIGHT - y), theta)
