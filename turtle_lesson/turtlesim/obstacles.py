@@ -11,7 +11,7 @@ from numbers import Real
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 if TYPE_CHECKING:
-    from visualization_msgs.msg import Marker, MarkerArray
+    from visualization_msgs.msg import MarkerArray
 
 FRAME = "world"
 NAMESPACE = "obstacles"
@@ -116,30 +116,17 @@ def to_marker_array(obstacles: Iterable[Obstacle], stamp: Any) -> "MarkerArray":
     """
     from visualization_msgs.msg import Marker, MarkerArray
 
-    wipe = Marker(action=Marker.DELETEALL)
-    wipe.header.frame_id = FRAME
-    wipe.header.stamp = stamp
-    markers = [_to_marker(number, each, stamp) for number, each in enumerate(obstacles)]
-    return MarkerArray(markers=[wipe, *markers])
-
-
-def _to_marker(number: int, obstacle: Obstacle, stamp: Any) -> "Marker":
-    from visualization_msgs.msg import Marker
-
-    marker = Marker(ns=NAMESPACE, id=number, action=Marker.ADD)
-    marker.header.frame_id = FRAME
-    marker.header.stamp = stamp
-    marker.pose.position.x = obstacle.x
-    marker.pose.position.y = obstacle.y
-    marker.pose.position.z = MARKER_HEIGHT / 2  # a marker's position is its middle: let it stand on the floor
-    marker.scale.z = MARKER_HEIGHT
-    marker.color.r, marker.color.g, marker.color.b, marker.color.a = COLOUR
-    if isinstance(obstacle, Circle):
-        marker.type = Marker.CYLINDER
-        marker.scale.x = marker.scale.y = 2 * obstacle.radius
-    else:
-        marker.type = Marker.CUBE
-        marker.scale.x, marker.scale.y = obstacle.width, obstacle.height
-        marker.pose.orientation.z = math.sin(obstacle.angle / 2)
-        marker.pose.orientation.w = math.cos(obstacle.angle / 2)
-    return marker
+    markers = [Marker(action=Marker.DELETEALL)]
+    for number, obstacle in enumerate(obstacles):
+        kind = Marker.CYLINDER if isinstance(obstacle, Circle) else Marker.CUBE
+        marker = Marker(ns=NAMESPACE, id=number, action=Marker.ADD, type=kind)
+        position, turn = marker.pose.position, marker.pose.orientation
+        position.x, position.y = obstacle.x, obstacle.y
+        position.z = MARKER_HEIGHT / 2  # a marker's position is its middle: let it stand on the floor
+        turn.z, turn.w = math.sin(obstacle.angle / 2), math.cos(obstacle.angle / 2)
+        marker.scale.x, marker.scale.y, marker.scale.z = obstacle.width, obstacle.height, MARKER_HEIGHT
+        marker.color.r, marker.color.g, marker.color.b, marker.color.a = COLOUR
+        markers.append(marker)
+    for marker in markers:
+        marker.header.frame_id, marker.header.stamp = FRAME, stamp
+    return MarkerArray(markers=markers)
