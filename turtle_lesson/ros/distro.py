@@ -111,7 +111,7 @@ class Release:
     def __init__(self, name: str) -> None:
         if name not in RELEASES:
             known = ", ".join(f'"{each}"' for each in RELEASES)
-            raise ValueError(f"distro must be one of the releases {known}, got {name!r}")
+            raise ValueError(f"distro must be one of the releases {known}, got {name!r} (perhaps from {VARIABLE})")
         self.name = name
         self._changes = frozenset(each for each in changes() if RELEASES.index(each.since) <= RELEASES.index(name))
         self.lacked: dict[tuple[Change, str], int] = {}
@@ -138,10 +138,4 @@ class Release:
 
 def chosen_release(distro: str | None) -> Release:
     """The release of this name; without one, that of the environment variable ROS_DISTRO, or Humble. Raises ValueError."""
-    if distro is not None:
-        return Release(distro)
-    name = os.environ.get(VARIABLE) or RELEASES[0]
-    try:
-        return Release(name)
-    except ValueError as error:
-        raise ValueError(f"the environment variable {VARIABLE} is not understood: {error}") from None
+    return Release(os.environ.get(VARIABLE) or RELEASES[0] if distro is None else distro)

@@ -19,6 +19,7 @@ from launch import Action, Event, LaunchContext, LaunchDescription, LaunchDescri
 from launch._context import as_entities
 from launch._entities import described
 from launch.actions import DeclareLaunchArgument, EmitEvent, ExecuteProcess, IncludeLaunchDescription
+from launch.actions._processes import OUTPUT_OVERRIDE
 from launch.events import IncludeLaunchDescription as Included
 from launch.events import Shutdown
 from launch.launch_description_sources import AnyLaunchDescriptionSource
@@ -339,7 +340,8 @@ def _begin(
         argument: str(value).lower() if isinstance(value, bool) else str(value) for argument, value in arguments.items()
     }
     service = LaunchService(world)
-    service.context._output_override = "both" if show_all_output else None
+    if show_all_output:
+        service.context.environment[OUTPUT_OVERRIDE] = "both"
     include = IncludeLaunchDescription(source, launch_arguments=given.items())
     include._written_at = None  # it stands in no launch file
     try:

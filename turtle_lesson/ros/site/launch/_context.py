@@ -72,7 +72,6 @@ class LaunchContext:
         self._host: LaunchService
         """What carries the launch out; a context in which substitutions are merely performed has none."""
         self._configurations_read: set[str] = set()
-        self._output_override: str | None = None
         self._event_queue: deque[Event] = deque()
         self._event_handlers: deque[EventHandler] = deque()
         self._locals: dict[str, Any] = {}

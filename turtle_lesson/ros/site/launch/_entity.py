@@ -68,12 +68,7 @@ class Entity:
         below = self._inside.in_xml
         if below is None:
             self._asked.add("children")
-            if "children" not in self._inside:
-                raise ValueError(
-                    f"Expected entity `{self.type_name}` to have children entities."
-                    "That can be a list of subentities or a dictionary with a `children` list element"
-                )
-            below = self._inside["children"]
+            below = self._inside.get("children", [])
         found = []
         for item in below if isinstance(below, list) else [below]:
             if not isinstance(item, Mapping) or len(item) != 1:

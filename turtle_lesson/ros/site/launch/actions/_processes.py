@@ -29,6 +29,9 @@ from ..substitutions import LaunchConfiguration
 
 __all__ = ["ExecuteProcess"]
 
+OUTPUT_OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
+"""The environment variable that counts instead of each action's `output`; `ros2 launch -a` sets it."""
+
 SCREEN = {
     "screen": {"stdout", "stderr"},
     "both": {"stdout", "stderr"},
@@ -160,8 +163,7 @@ class ExecuteProcess(Action):
         alone = context.environment if self._env is None else _variables(context, self._env)
         self._program = self._find_program(context)
         self._respawns = evaluate_condition_expression(context, self.__respawn)
-        override = context._output_override or context.environment.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT")
-        self._on_screen = _on_screen(context, override or self.output)
+        self._on_screen = _on_screen(context, context.environment.get(OUTPUT_OVERRIDE) or self.output)
         self.process_details = {
             "action": self,
             "name": self.name,
