@@ -17,13 +17,12 @@ Where it differs from the real one:
 """
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, TypeVar
 
-import rclpy
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor, ParameterEvent
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.task import Future
@@ -32,6 +31,7 @@ from turtlesim.action import RotateAbsolute
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
+from turtle_lesson.ros.tools import spin
 from turtle_lesson.turtlesim.turtle import (
     HEIGHT,
     LARGEST,
@@ -289,18 +289,4 @@ def _key(goal: Any) -> bytes:
     return bytes(goal.goal_id.uuid)
 
 
-def main(args: list[str] | None = None) -> None:
-    """Run the simulator until it is told to stop; ``ros2 run turtlesim turtlesim_node`` calls this."""
-    rclpy.init(args=args)
-    node = TurtlesimNode()
-    try:
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    main()
+main = partial(spin, TurtlesimNode)

@@ -55,35 +55,27 @@ def program(words: Sequence[str], *, shell: bool = False) -> Program:
     in_shell = PurePath(words[0]).name in SHELLS and len(words) == 3 and words[1] == "-c"
     commands = hooks.commands_of_text(shown if shell else words[2]) if shell or in_shell else [("", list(words))]
     if len(commands) == 1:
-        return _simple(commands[0][1], shown)
+        words = commands[0][1]
+        if found := _program_file(words, shown):
+            return found
     mains = [(sign, _main(command)) for sign, command in commands]
 
-    def main() -> int:
+    def in_turn() -> NoReturn:
+        """Run the commands as a shell does, and end the process; Ctrl-C ends it without a word."""
         code = 0
-        for sign, run in mains:
-            if (sign == "&&" and code) or (sign == "||" and not code):
-                continue
-            code = run() or 0
-        return code
-
-    return Program(_ending(main), list(words), shown)
-
-
-def _ending(main: Main) -> Callable[[], None]:
-    """A function that ends its process with the exit code that `main` gives; Ctrl-C ends it without a word."""
-
-    def end() -> None:
         try:
-            code = main() or 0
+            for sign, main in mains:
+                if not ((sign == "&&" and code) or (sign == "||" and not code)):
+                    code = main() or 0
         except KeyboardInterrupt:
             code = INTERRUPTED
         sys.exit(code)
 
-    return end
+    return Program(in_turn, list(words), shown)
 
 
-def _simple(words: list[str], shown: str) -> Program:
-    """One command: a program of a package, a Python file, or a function of this module."""
+def _program_file(words: list[str], shown: str) -> Program | None:
+    """What a command runs if it is a program of a package or a Python file."""
     packages = current_packages()
     if words[:2] == ["ros2", "run"] and len(words) > 2:  # the program itself, without `ros2` around it
         given = hooks.run_arguments(words[1:])
@@ -103,7 +95,7 @@ def _simple(words: list[str], shown: str) -> Program:
             what = f"there is no file {path}" if argv[0][0] != "-" else "a Python file is run by its path"
             raise UnknownCommand(f"ExecuteProcess(cmd='{shown}'): {what}")
         return Program(path.resolve(), argv, shown)
-    return Program(_ending(_main(words)), words, shown)
+    return None
 
 
 def _main(words: list[str]) -> Main:

@@ -95,22 +95,21 @@ def tf2_echo() -> int:
 
 def tree_of(frames: dict[str, Any]) -> str:
     """The frames as a tree, each under its parent, with what is known of it. `frames`: as `all_frames_as_yaml`."""
-    children: dict[str, list[str]] = {}
-    for name, entry in frames.items():
-        children.setdefault(entry["parent"], []).append(str(name))
-    roots = [parent for parent in children if parent not in frames]
-    return "\n".join(line for root in roots for line in [root, *_branches(root, children, frames, "")])
+    lines: list[str] = []
 
+    def draw_below(parent: str, indent: str) -> None:
+        names = [str(name) for name, entry in frames.items() if entry["parent"] == parent]
+        for name in names:
+            sign, more = ("└── ", "    ") if name == names[-1] else ("├── ", "│   ")
+            rate, latest = frames[name]["rate"], frames[name]["most_recent_transform"]
+            known = f"{rate:.1f} Hz, the latest at {latest:.3f}" if latest else "static"
+            lines.append(f"{indent}{sign}{name}  ({known})")
+            draw_below(name, indent + more)
 
-def _branches(parent: str, children: dict[str, list[str]], frames: dict[str, Any], indent: str) -> list[str]:
-    lines = []
-    names = children.get(parent, [])
-    for name in names:
-        sign, more = ("└── ", "    ") if name == names[-1] else ("├── ", "│   ")
-        rate, latest = frames[name]["rate"], frames[name]["most_recent_transform"]
-        lines.append(f"{indent}{sign}{name}  ({f'{rate:.1f} Hz, the latest at {latest:.3f}' if latest else 'static'})")
-        lines += _branches(name, children, frames, indent + more)
-    return lines
+    for root in dict.fromkeys(entry["parent"] for entry in frames.values() if entry["parent"] not in frames):
+        lines.append(root)
+        draw_below(root, "")
+    return "\n".join(lines)
 
 
 def view_frames() -> int:
