@@ -182,9 +182,8 @@ class RosHelper:
         self._world = world
         self._carry_on = carry_on
         self._orders: list[Callable[[Node], object]] = []
-        self._wake: Callable[[], None] | None = None
+        self._wake: Callable[[], None] = lambda: None
         self._clients: dict[str, Client] = {}
-        self._ended = False
         self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
 
     def _main(self) -> None:
@@ -203,22 +202,19 @@ class RosHelper:
     def _order(self, order: Callable[[Node], object]) -> None:
         """Have something done in the helper's own process."""
         self._orders.append(order)
-        if self._wake is not None:
-            self._wake()
+        self._wake()
 
     def _tell(self, function: Callable[[], None]) -> None:
         """Call a function of the launch, outside of this process and at this instant."""
-        if not self._ended:
-            self._world.sim.call_later(0, self._carry_on, function)
+        self._world.sim.call_later(0, self._carry_on, function)
 
     def watch(self, node_name: str, heard: Callable[[TransitionEvent], None]) -> None:
         """Have a function called with each TransitionEvent of a node."""
-        topic = f"{node_name}/transition_event"
-        self._order(
-            lambda node: node.create_subscription(
-                TransitionEvent, topic, lambda msg: self._tell(lambda: heard(msg)), 10
-            )
-        )
+
+        def hear(event: TransitionEvent) -> None:
+            self._tell(lambda: heard(event))
+
+        self._order(lambda node: node.create_subscription(TransitionEvent, f"{node_name}/transition_event", hear, 10))
 
     def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
         """Ask a node for a transition, as soon as it has the service; the function is called with the answer."""
@@ -243,6 +239,5 @@ class RosHelper:
 
     def close(self) -> None:
         """End it."""
-        self._ended = True
-        if self._process.exit_code is None:
+        if self._process.alive:
             self._process.kill()
