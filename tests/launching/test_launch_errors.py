@@ -74,7 +74,7 @@ def test_no_function(tmp_path: Path) -> None:
         f" - InvalidPythonLaunchFileError: launch file at '{path}' does not contain the required function "
         "'generate_launch_description()'"
     )
-    assert error.hint == "Rename generate_launch_descripton() to generate_launch_description()."
+    assert error.hint == "Write: def generate_launch_description(): return LaunchDescription([…])"
 
 
 @pytest.mark.parametrize(
@@ -105,9 +105,7 @@ def test_a_missing_required_argument(tmp_path: Path) -> None:
         "(description: 'Name of the robot (required)'), given: []"
     )
     assert error.hint == "Give it a value: robot:=… (in a notebook lesson.launch(…, robot='…'))."
-    misspelt = failure(path, robt="bob")
-    assert misspelt.reason.endswith("given: [robt]")
-    assert misspelt.hint == "You gave 'robt'; did you mean 'robot'?"
+    assert failure(path, robt="bob").reason.endswith("given: [robt]")
 
 
 def test_a_bad_node_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -181,14 +181,11 @@ class Waiter:
         self._world = world
         self._what = what
         self._strand: Strand | None = None
-        self._live = False
 
     def ended(self, process: Process) -> None:
         """The process is dead: the callers that wait for it continue."""
         if self._strand is not None:
             self._world.sim.wake(self._strand)
-        elif self._live:
-            self._world.sim.halt()
 
     def wait(self, process: Process) -> str:
         """Let the world run until the process has ended; it is interrupted if it can never end. Returns why, or nothing.
@@ -200,7 +197,6 @@ class Waiter:
             if rate is None:
                 drive(self._world.notebook, self._park, process, limit=PATIENCE)
             else:
-                self._live = True
                 _play(self._world, rate, lambda: not process.alive)
         except SimulationError as error:
             process.interrupt()
@@ -209,7 +205,7 @@ class Waiter:
             process.interrupt()
             raise
         finally:
-            self._strand, self._live = None, False
+            self._strand = None
             if process.alive:
                 process.kill()
         return ""

@@ -198,54 +198,45 @@ class _Reader:
         self._text = text
         self._at = 0
 
-    @property
-    def _here(self) -> str:
-        """The next character, or nothing at the end."""
-        return self._text[self._at : self._at + 1]
+    def _take(self, pattern: str) -> str:
+        """What matches here, and go on behind it; nothing if it does not match."""
+        match = re.compile(pattern, re.DOTALL).match(self._text, self._at)
+        if match is None:
+            return ""
+        self._at = match.end()
+        return match[0]
 
     def pieces(self, stops: str, quote: str) -> list[Substitution]:
         """Everything up to one of these characters, or to the end."""
-        plain = re.compile(rf"(?:\\.?|[^\\${stops}])+", re.DOTALL)
         found: list[Substitution] = []
-        while self._here and self._here not in stops:
-            if match := plain.match(self._text, self._at):
-                self._at = match.end()
-                found.append(TextSubstitution(text=_without_backslashes(match[0])))
-            elif self._text.startswith("$(", self._at):
+        while self._at < len(self._text) and self._text[self._at] not in stops:
+            if plain := self._take(rf"(?:\\.?|[^\\${stops}])+"):
+                found.append(TextSubstitution(text=_without_backslashes(plain)))
+            elif self._take(r"\$\("):
                 found.append(self._substitution(quote))
             else:
                 raise self._wrong(r"A dollar sign that begins no $(…) is written \$.")
         return found
 
     def _substitution(self, quote: str) -> Substitution:
-        begin = self._at
-        self._at += len("$(")
-        name = re.compile(r"[A-Za-z][A-Za-z0-9_-]*").match(self._text, self._at)
-        if name is None:
+        """What begins with a `$(`, which has been taken."""
+        begin = self._at - len("$(")
+        name = self._take("[A-Za-z][A-Za-z0-9_-]*")
+        if not name:
             raise self._wrong("After $( comes the name of a substitution, as in $(var rate).")
-        self._at = name.end()
         arguments = []
-        while self._here == " ":
-            self._at += 1
+        while self._take(" "):
             arguments.append(self._argument(quote))
-        if self._here != ")":
+        if not self._take(r"\)"):
             raise self._wrong(f"Is the bracket of {self._text[begin : begin + 20]!r} closed?")
-        self._at += 1
-        return _substitution_of(name[0], arguments)
+        return _substitution_of(name, arguments)
 
     def _argument(self, quote: str) -> list[Substitution]:
-        if not quote and self._here in ("'", '"'):
-            mark = self._here
-            self._at += 1
-            found = self.pieces(mark, mark)
-            if not self._here:
-                raise self._wrong(f"Close the quotation mark {mark} that begins an argument.")
-            self._at += 1
-            return found or [TextSubstitution(text="")]
-        found = self.pieces((quote or "'\"") + " ()", quote)
-        if not found:
+        mark = "" if quote else self._take("['\"]")
+        found = self.pieces(mark or (quote or "'\"") + " ()", mark or quote)
+        if (mark and not self._take(mark)) or not (mark or found):
             raise self._wrong("Separate arguments by one space; put an argument with spaces in quotes.")
-        return found
+        return found or [TextSubstitution(text="")]
 
     def _wrong(self, hint: str) -> SubstitutionSyntaxError:
         what = f"the text {self._text!r} is not understood from character {self._at + 1} on"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from pathlib import Path
 from types import ModuleType
@@ -92,12 +91,9 @@ class PythonLaunchDescriptionSource(_LaunchFile):
         exec(compile(Path(location).read_bytes(), location, "exec"), vars(module))
         generate = getattr(module, "generate_launch_description", None)
         if generate is None:
-            functions = [name for name, value in vars(module).items() if callable(value)]
-            close = difflib.get_close_matches("generate_launch_description", functions, n=1)
-            write = "Write: def generate_launch_description(): return LaunchDescription([…])"
-            hint = f"Rename {close[0]}() to generate_launch_description()." if close else write
             missing = "does not contain the required function 'generate_launch_description()'"
             what = f"launch file at '{shown_path(location)}' {missing}"
+            hint = "Write: def generate_launch_description(): return LaunchDescription([…])"
             raise explained(InvalidPythonLaunchFileError(what), hint)
         description: LaunchDescription = generate()
         return description

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar
@@ -117,8 +116,6 @@ class IncludeLaunchDescription(Action):
             needed = argument.default_value is None and not argument._conditionally_included
             if needed and argument.name not in known:
                 hint = f"Give it a value: {argument.name}:=… (in a notebook lesson.launch(…, {argument.name}='…'))."
-                for close in difflib.get_close_matches(str(argument.name), known, n=1):
-                    hint = f"You gave '{close}'; did you mean '{argument.name}'?"
                 error = RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
                     f"(description: '{argument.description}'), given: [{', '.join(known)}]"
