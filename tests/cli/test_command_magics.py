@@ -517,23 +517,6 @@ def test_tab_completes_files_where_a_command_wants_one(run: Run, tmp_path: Path)
     assert complete(current_world(), "cat no/where") == complete(current_world(), "cat 'a b\0/") == []
 
 
-def test_tab_completes_the_arguments_of_a_launch_file(run: Run, tmp_path: Path) -> None:
-    (tmp_path / "x.launch.py").write_text(
-        "from launch import LaunchDescription\nfrom launch.actions import DeclareLaunchArgument as Argument\n"
-        "print('loaded')\n"
-        "def generate_launch_description():\n"
-        "    return LaunchDescription([Argument('rate'), Argument('how', choices=['slow', 'fast'])])\n"
-    )
-    assert complete(current_world(), "ros2 launch x.launch.py ") == ["how:=fast", "how:=slow", "rate:="]
-    assert complete(current_world(), "ros2 launch x.launch.py rate:=5 how:=f") == ["how:=fast"]
-    assert complete(current_world(), "ros2 launch nope.launch.py ") == []
-
-
-def test_tab_completes_jobs(run: Run) -> None:
-    run("ros2 topic hz /turtle1/pose &")
-    assert complete(current_world(), "kill -INT %") == ["%1"]
-
-
 def test_tab_lets_no_time_pass(run: Run) -> None:
     before = current_world().now
     assert complete(current_world(), "ros2 param get /turtlesim ")

@@ -5,21 +5,17 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Iterable, Sequence
-from contextlib import redirect_stdout
-from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import yaml
 from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMatcherResult, context_matcher
 
-from .. import launching
 from ..idl.names import is_hidden
 from ..idl.registry import registry
 from ..runtime.world import current_world
 from .cells import COMMANDS
 from .group_pkg import package_names
-from .jobs import jobs
 from .run_command import GROUPS
 from .script import Operator, UnfinishedError, Word, tokens
 from .typed_values import interface_names
@@ -49,10 +45,6 @@ def _candidates(world: World, words: list[str], begun: str) -> Iterable[str]:
         packages = {path.parent.name for path in Path("src").glob("**/package.xml")}
         options = ["--packages-select", "--symlink-install", "--event-handlers", *packages]
         return options if rest else ["build", "list"]
-    if program in {"jobs", "pwd"}:
-        return []
-    if program == "kill":
-        return ["-INT", "-TERM", "-KILL", *(f"%{job.number}" for job in jobs(world).running)]
     if program != "ros2":
         return paths(begun, folders_only=program in {"cd", "mkdir"})
     if not rest:
@@ -115,8 +107,6 @@ def _values(world: World, action: argparse.Action, given: Sequence[str], begun: 
             return world.packages.get(first).executables
         case "launch_file_name" if first in world.packages:
             return [path.name for path in world.packages.get(first).shared_files("*launch.*")]
-        case "launch_file_name" | "launch_arguments":
-            return _launch_arguments(world, given)
         case "bag_path" | "output" | "parameter_file":
             return paths(begun)
         case "destination_directory" | "output_dir":
@@ -172,18 +162,6 @@ def _own_type(world: World, name: str) -> list[str]:
     topic = topics.get(name) or topics.get(f"{name}{FEEDBACK}")
     types = topic.types if topic else world.graph.services().get(name, [])
     return [each.removesuffix("_FeedbackMessage") for each in types]
-
-
-def _launch_arguments(world: World, given: Sequence[str]) -> list[str]:
-    """The arguments that a launch file takes and was not given yet: `rate:=`, or with their values if there are few."""
-    try:
-        path = Path(given[0]) if Path(given[0]).is_file() else launching.find_launch_file(world, *given[:2])
-        with redirect_stdout(StringIO()):
-            taken = launching.launch_arguments(world, path)
-    except Exception:  # a file that is not there, or not finished
-        return []
-    left = [each for each in taken if not any(word.startswith(f"{each.name}:=") for word in given)]
-    return [f"{each.name}:={choice}" for each in left for choice in each.choices or ("",)]
 
 
 def _parameters(world: World, name: str) -> list[str]:
