@@ -352,10 +352,9 @@ def test_a_flag_of_the_command_reaches_its_verbs(world: World) -> None:
 
 
 def test_doctor_says_what_this_is_and_what_is_up(world: World) -> None:
-    answer = type_in(world, "ros2 doctor --report")
+    answer = type_in(world, "ros2 doctor")
     assert answer.code == 0
     assert answer.stdout.startswith("This is Turtle Lesson's simulation")
-    assert "   NODES\nnone\n" in answer.stdout
     assert answer.stdout.endswith("All 2 checks passed\n")
 
 

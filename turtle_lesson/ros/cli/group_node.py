@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from ..idl.names import is_hidden
 from ..runtime.world import current_world
 from .arguments import ALL_NODES, COUNT_NODES, HIDDEN_NODES, NODE, OF_NODE, arg, flag
-from .jobs import jobs
 from .verb import (
     CommandError,
     ask,
@@ -24,7 +23,6 @@ from .verb import (
     suggest,
     topics,
     verb,
-    with_types,
 )
 
 if TYPE_CHECKING:
@@ -145,20 +143,16 @@ def set_state(args: Namespace, node: Node) -> None:
 # -- doctor ------------------------------------------------------------------------------------------------------------
 
 
-@graph_verb("doctor", flag("-r --report", "also list nodes, topics, services and jobs"))
+@graph_verb("doctor")
 def _doctor(args: Namespace, node: Node) -> None:
     """Describe this simulation, what is running, and what looks wrong."""
     world, names, known = current_world(), node_names(node), topics(node)
-    up = {"node": names, "topic": with_types(known), "service": with_types(services(node))}
+    up = {"node": names, "topic": known, "service": services(node)}
     packages = world.packages.names()
     print("This is Turtle Lesson's simulation of a robot's computer, with no ROS 2 installed.")
     print(f"It behaves as ROS 2 {world.release.title} does. Robot time {(world.now / 1e9):.1f} s, seed {world.seed}.")
-    print(f"Up: {', '.join(_counted(lines, what) for what, lines in up.items())}.", end=" ")
+    print(f"Up: {', '.join(_counted(found, what) for what, found in up.items())}.", end=" ")
     print(f"{_counted(packages, 'package')} with programs: {', '.join(packages) or 'none'}.")
-    if args.report:
-        for what, lines in (*up.items(), ("job", [f"%{job.number} {job.words}" for job in jobs(world).running])):
-            print(f"\n   {what.upper()}S")
-            print("\n".join(lines) or "none")
     # names that several nodes have, and topics that only have one side, as the real doctor tells them
     found = [f"{count} nodes share the name {name}" for name, count in Counter(names).items() if count > 1]
     for name in sorted(known.keys() - {"/rosout", "/parameter_events"}):
