@@ -289,7 +289,7 @@ def test_nothing_is_ever_overwritten(world: World, tmp_path: Path) -> None:
     write_bag(tmp_path / "bag")
     before = (tmp_path / "bag" / "bag_0.mcap").read_bytes()
     for name in ("file", "bag"):
-        with pytest.raises(BagError, match=rf"^Output folder '.*{name}' already exists\. .* shutil\.rmtree\('"):
+        with pytest.raises(BagError, match=rf"^Output folder '.*{name}' already exists\."):
             Recording(world, tmp_path / name)
     assert (tmp_path / "file").read_text() == "precious"
     assert (tmp_path / "bag" / "bag_0.mcap").read_bytes() == before

@@ -8,10 +8,9 @@ Facts: rosbag2_transport's qos.cpp (adapt_request_to_offers).
 
 from __future__ import annotations
 
-import os
 import re
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,8 +23,6 @@ from . import BagError, UnrecordableType
 from .writer import BagWriter, profile_of
 
 if TYPE_CHECKING:
-    from rclpy.qos import QoSProfile
-
     from ..rmw.graph import Topic
     from ..rmw.writer import Writer
     from ..runtime.world import World
@@ -128,7 +125,10 @@ class Recorder:
             # When it arrived, were it not for the moment that everything takes: so in the usual network it is when it was sent.
             self._write(heard, message, info["received_timestamp"] - topic.latency)
 
-        profile = request_for([writer.quality for writer in writers])
+        # A real recorder keeps ten messages and loses the rest of a burst; this one keeps all.
+        reliable = all(writer.quality.reliable for writer in writers)
+        latched = bool(writers) and all(writer.quality.latched for writer in writers)
+        profile = profile_of(reliable=reliable, latched=latched, keep_all=True)
         heard.subscription = self._node.create_subscription(message_class, name, write, profile)
         self._heard.append(heard)
         self._unregistered.append(heard)
@@ -189,16 +189,6 @@ class Recorder:
                 self._write(heard, message, EPOCH + sent)
         self._tell()
         self._bag.close()
-
-
-def request_for(qualities: Sequence[Any]) -> QoSProfile:
-    """What a recorder asks for, so that it hears publishers that offer these (graph `Quality` values), every message.
-
-    A real recorder keeps ten messages and loses the rest of a burst; this one keeps all.
-    """
-    reliable = all(quality.reliable for quality in qualities)
-    latched = bool(qualities) and all(quality.latched for quality in qualities)
-    return profile_of(reliable=reliable, latched=latched, keep_all=True)
 
 
 def record(
@@ -266,11 +256,6 @@ class Recording:
         if topics is not None and not selection.topics:
             raise BagError("topics names no topic: leave it out to record all of them")
         self.path = Path(path).expanduser().absolute()
-        if os.path.lexists(self.path):
-            raise BagError(
-                f"Output folder '{path}' already exists. A bag is never overwritten: choose another name, or delete it "
-                f"first, with shutil.rmtree({str(path)!r})"
-            )
         self._shown = str(path)
         self._writer = BagWriter(self.path, storage)
         self._recorder: Recorder | None = None
