@@ -53,5 +53,5 @@ def __getattr__(name: str) -> Any:
 with defer_sigint():
     if SITE not in sys.path:  # what a learner imports comes last, the way sourcing a setup file adds to the path
         sys.path.append(SITE)
-    patches.install(patches.Stage.IMPORT)
+    patches.install_early()
     hooks.is_page = _is_page

@@ -169,7 +169,7 @@ def test_a_row_is_put_in_and_taken_out(index: int) -> None:
         assert not seen["replaced"]
     else:
         assert seen["replaced"] and seen["again"]
-        assert seen["early"] == (row.stage is patches.Stage.IMPORT)
+        assert seen["early"] == (row in patches.EARLY)
     assert seen["put back"] or not seen["there"]
     assert seen["the same"]
 

@@ -14,9 +14,8 @@ import queue
 import random
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import thread as pool
-from enum import IntEnum
 from functools import cache, partial
 from importlib.machinery import ModuleSpec, PathFinder
 from pkgutil import resolve_name
@@ -41,15 +40,6 @@ from .ownership import facade, in_no_strand
 from .program import ProgramFinder, on_import
 
 
-class Stage(IntEnum):
-    """When a row is put in."""
-
-    IMPORT = 1
-    """By `import turtle_lesson`, so that a program that begins with `from time import sleep` has ours."""
-    WORLD = 2
-    """By the first world."""
-
-
 class Patch(NamedTuple):
     """One replaced attribute; `owner` is named as `pkgutil.resolve_name` reads it, and `ours` gets the original."""
 
@@ -57,7 +47,6 @@ class Patch(NamedTuple):
     name: str
     ours: Callable[[Any], Any]
     why: str
-    stage: Stage = Stage.WORLD
 
 
 def named(function: Any, name: str, real: Any) -> Any:
@@ -68,24 +57,16 @@ def named(function: Any, name: str, real: Any) -> Any:
     return copy
 
 
-def _function(owner: str, function: Callable[..., Any], why: str, name: str = "", stage: Stage = Stage.WORLD) -> Patch:
+def _function(owner: str, function: Callable[..., Any], why: str, name: str = "") -> Patch:
     """A row for a function that gets the real one as its first argument.
 
     As a method of the real one it is as good an attribute of a class as that: it is not bound once more.
     """
     name = name or function.__name__
-    return Patch(owner, name, lambda real: MethodType(named(function, name, real), real), why, stage)
+    return Patch(owner, name, lambda real: MethodType(named(function, name, real), real), why)
 
 
-def _in_process(
-    owner: str,
-    function: Callable[..., Any],
-    why: str,
-    name: str = "",
-    stage: Stage = Stage.WORLD,
-    *,
-    cells: bool = True,
-) -> Patch:
+def _in_process(owner: str, function: Callable[..., Any], why: str, name: str = "", *, cells: bool = True) -> Patch:
     """A row for a function that takes the real one's place in a simulated process alone, and gets the strand that calls first.
 
     Without `cells` the real one is also called for a cell that waits.
@@ -97,7 +78,7 @@ def _in_process(
             return function(strand, *arguments, **keywords)
         return real(*arguments, **keywords)
 
-    return _function(owner, call, why, name or function.__name__, stage)
+    return _function(owner, call, why, name or function.__name__)
 
 
 def _refused(owner: str, name: str) -> Patch:
@@ -139,17 +120,22 @@ AT_EXIT = "is called when the simulated process ends"
 CHILD = "ros2 commands and Python files run in the world"
 WAITS = "waits in virtual time"
 
-TABLE: tuple[Patch, ...] = (
-    *(_function("time", each, TIME, name, Stage.IMPORT) for name, each in clocks.CLOCKS.items()),
-    _function("time", threads.sleep, TIME, stage=Stage.IMPORT),
-    *(_in_process("time", each, DATE, name) for name, each in clocks.DATES.items()),
-    Patch("logging:Formatter", "converter", _now("time", "localtime"), DATE),
-    _function("random", process_state.random, DRAW, stage=Stage.IMPORT),
+EARLY: tuple[Patch, ...] = (
+    *(_function("time", each, TIME, name) for name, each in clocks.CLOCKS.items()),
+    _function("time", threads.sleep, TIME),
+    _function("random", process_state.random, DRAW),
     *(
-        _in_process("random", process_state.drawing(name), DRAW, name, Stage.IMPORT)
+        _in_process("random", process_state.drawing(name), DRAW, name)
         for name in random.__all__
         if name != "random" and type(getattr(getattr(random, name), "__self__", None)) is random.Random
     ),
+)
+"""Put in by `import turtle_lesson`, so that a program that begins with `from time import sleep` has ours."""
+
+TABLE: tuple[Patch, ...] = (
+    *EARLY,
+    *(_in_process("time", each, DATE, name) for name, each in clocks.DATES.items()),
+    Patch("logging:Formatter", "converter", _now("time", "localtime"), DATE),
     *(
         _in_process("numpy.random", process_state.drawing(name, process_state.numpy_source), DRAW, name)
         for name in process_state.NUMPY
@@ -215,9 +201,7 @@ class LateFinder:
 
         def exec_module(module: ModuleType) -> None:
             execute(module)
-            for patch in TABLE:
-                if patch.owner.partition(":")[0] == name:
-                    _put_in(patch)
+            _put_in(patch for patch in TABLE if patch.owner.partition(":")[0] == name)
 
         spec.loader.exec_module = exec_module  # type: ignore[method-assign]
         return spec
@@ -262,28 +246,27 @@ def _check_python() -> None:
 _NOT_THERE = object()
 _replaced: list[tuple[Any, str, Any]] = []
 """Owner, name and original of what is replaced now, the oldest first; an attribute that a class inherits is `_NOT_THERE`."""
-_stages: set[Stage] = set()
 
 
-def install(stage: Stage = Stage.WORLD) -> None:
-    """Put in all rows up to a stage; what is in stays as it is.
+def install_early() -> None:
+    """Put in the rows of `EARLY`, unless they are in."""
+    if not _replaced:
+        install_finder()
+        atexit.register(_at_exit)
+        _put_in(EARLY)
+
+
+def install() -> None:
+    """Put in all rows that are not in.
 
     Raises NotImplementedError on a Python that lacks what simulated threads need.
     """
-    if stage in _stages:
-        return
-    if stage is Stage.WORLD:
-        install(Stage.IMPORT)
+    install_early()
+    if FINDERS[0] not in sys.meta_path:
         _check_python()
         _put_in_place_of_modules()
         sys.meta_path[:0] = FINDERS
-    else:
-        install_finder()
-        atexit.register(_at_exit)
-    _stages.add(stage)
-    for patch in TABLE:
-        if patch.stage is stage:
-            _put_in(patch)
+        _put_in(TABLE[len(EARLY) :])
 
 
 def uninstall() -> None:
@@ -308,23 +291,20 @@ def _take_out() -> None:
     uninstall_finder()
     sys.meta_path[:] = [each for each in sys.meta_path if each not in FINDERS]
     _replaced.clear()
-    _stages.clear()
     on_import.clear()
 
 
-def _put_in(patch: Patch) -> None:
-    """Put in one row, if this Python, on this system, has what it replaces, and a late module is imported."""
-    owner_module = patch.owner.partition(":")[0]
-    if owner_module in LATE and owner_module not in sys.modules:
-        return
-    owner, name = resolve_name(patch.owner), patch.name
-    if not hasattr(owner, name):
-        return
-    real = getattr(owner, name)
-    own = vars(owner).get(name, _NOT_THERE) if isinstance(owner, type) else real
-    ours = patch.ours(real)
-    _replaced.append((owner, name, own))
-    setattr(owner, name, ours)
+def _put_in(rows: Iterable[Patch]) -> None:
+    """Put in what this Python, on this system, has, and of late modules those that are imported."""
+    for place, name, ours, _ in rows:
+        module = place.partition(":")[0]
+        if module in LATE and module not in sys.modules:
+            continue
+        owner = resolve_name(place)
+        if hasattr(owner, name):
+            real = getattr(owner, name)
+            _replaced.append((owner, name, vars(owner).get(name, _NOT_THERE) if isinstance(owner, type) else real))
+            setattr(owner, name, ours(real))
 
 
 def _at_exit() -> None:
