@@ -12,7 +12,6 @@ there for `__import__`. The notebook's own imports never come here.
 from __future__ import annotations
 
 import builtins
-import importlib.util
 import marshal
 import os
 import sys
@@ -180,10 +179,8 @@ class ProgramModules:
         spec = PathFinder.find_spec(name, path)
         if spec is None or spec.origin is None or not spec.origin.endswith(".py"):
             return None if spec is None or _is_found_elsewhere(name, path) else spec
-        loader = ProgramLoader(spec.name, spec.origin, self)
-        return importlib.util.spec_from_file_location(
-            spec.name, spec.origin, loader=loader, submodule_search_locations=spec.submodule_search_locations
-        )
+        spec.loader = ProgramLoader(spec.name, spec.origin, self)
+        return spec
 
     def _import(
         self,
@@ -221,13 +218,9 @@ def _take_out(tops: set[str]) -> dict[str, ModuleType]:
 
 
 def _is_found_elsewhere(name: str, path: Sequence[str]) -> bool:
-    """Whether somebody else has a module of this name: then a mere folder, or compiled code, does not hide it."""
-    for finder in sys.meta_path:
-        find = getattr(finder, "find_spec", None)
-        others = getattr(finder, "__name__", "") != "ProgramFinder" and finder is not PathFinder
-        if others and find is not None and find(name, path) is not None:
-            return True
-    return "." not in name and PathFinder.find_spec(name) is not None
+    """Whether a library has this name: then a mere folder, or compiled code, does not hide it."""
+    others = (each.find_spec(name, path) for each in sys.meta_path if each not in (ProgramFinder, PathFinder))
+    return any(others) or ("." not in name and PathFinder.find_spec(name) is not None)
 
 
 _OF_THE_PROCESS = ("argv", "stderr", "stdout")
