@@ -322,6 +322,7 @@ def _put_in_place_of_modules() -> None:
     on_import.update({name: partial(modules.get, name) for name in modules})
     on_import.update({toolkit: partial(subprocesses.refuse_toolkit, toolkit) for toolkit in subprocesses.WINDOWS})
     on_import.update({name: partial(_key_library, f"make_{name}") for name in ("curses", "pynput")})
+    on_import["fcntl"] = terminals.refuse_fcntl
 
 
 @cache
