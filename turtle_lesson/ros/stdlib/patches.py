@@ -16,6 +16,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import thread as pool
+from contextlib import nullcontext
 from functools import cache, partial
 from importlib.machinery import ModuleSpec, PathFinder
 from pkgutil import resolve_name
@@ -158,8 +159,10 @@ TABLE: tuple[Patch, ...] = (
     _method(
         "concurrent.futures.thread:ThreadPoolExecutor", threads.init, "eight threads on every computer", "__init__"
     ),
-    Patch("concurrent.futures.thread", "_global_shutdown_lock", threads.NotInStrands, "no strand must wait with it"),
-    Patch("concurrent.futures.thread", "_threads_queues", threads.Queues, "Python would join simulated threads"),
+    _method("concurrent.futures.thread:ThreadPoolExecutor", threads.adjust, "joins threads", "_adjust_thread_count"),
+    Patch(
+        "concurrent.futures.thread", "_global_shutdown_lock", lambda real: nullcontext(), "strands would wait with it"
+    ),
     *(_in_process("asyncio.events", each, LOOPS) for each in asyncio_loops.REPLACEMENTS),
     *(Patch("asyncio", e.__name__, _now("asyncio.events", e.__name__), LOOPS) for e in asyncio_loops.REPLACEMENTS),
     _in_process("signal", process_state.signal, SIGNAL, cells=False),
@@ -219,6 +222,7 @@ PRIVATE_NAMES: tuple[tuple[Any, str], ...] = (
     (queue, "time _PySimpleQueue"),
     (ownership.module, "local"),
     (pool, "_threads_queues _global_shutdown_lock"),
+    (pool.ThreadPoolExecutor, "_adjust_thread_count"),
     (asyncio_loops.asyncio.BaseEventLoop, "_run_once"),
     (os.environ, "_data"),
 )

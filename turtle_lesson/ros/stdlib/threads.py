@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from collections import UserDict
-from collections.abc import Callable, MutableMapping
+from collections.abc import Callable
+from concurrent.futures import thread as pool
 from traceback import format_exception_only
 from typing import TYPE_CHECKING, Any
 from weakref import WeakMethod
@@ -227,33 +227,13 @@ def init(
     process.before_exit.append(end)
 
 
-class NotInStrands:
-    """A lock against the end of Python itself, which can't come while a simulated process runs."""
-
-    def __init__(self, real: Any) -> None:
-        self._lock = real
-
-    def __enter__(self) -> None:
-        if running_strand() is None:
-            self._lock.acquire()
-
-    def __exit__(self, *error: object) -> None:
-        if running_strand() is None:
-            self._lock.release()
-
-
-class Queues(UserDict[Any, Any]):
-    """By thread, the queue from which it gets its work: Python waits for these threads when it ends.
-
-    It need not wait for those of simulated processes. The others are in the `real` one.
-    """
-
-    def __init__(self, real: MutableMapping[Any, Any]) -> None:
-        self.data = real  # type: ignore[assignment]  # it is shared, and goes by weak references
-
-    def __setitem__(self, thread: Any, work: Any) -> None:
-        if _lock_of(thread) is None:
-            self.data[thread] = work
+def adjust(real: Any, self: Any) -> None:
+    """`ThreadPoolExecutor._adjust_thread_count`, which notes threads that Python joins at its end: no simulated ones."""
+    real(self)
+    noted: Any = pool._threads_queues
+    for thread in self._threads:
+        if _lock_of(thread) is not None:
+            noted.pop(thread, None)
 
 
 # -- ending ------------------------------------------------------------------------------------------------------------
@@ -281,6 +261,4 @@ def wind_down(process: Process) -> None:
         except SystemExit:
             pass
         except Exception as error:
-            name = getattr(function.func, "__qualname__", repr(function.func))
-            print(f"Exception ignored in atexit callback: <function {name}>", file=sys.stderr)
-            print(format_error(error), end="", file=sys.stderr)
+            print(f"Exception ignored in atexit callback:\n{format_error(error)}", end="", file=sys.stderr)
