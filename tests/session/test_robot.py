@@ -188,7 +188,7 @@ def test_where_a_real_ros_is_sourced_start_points_to_connect():
 def test_the_simulated_commands_are_left_out_where_there_are_real_ones(path, found):
     program = (
         "from IPython.core.interactiveshell import InteractiveShell; shell = InteractiveShell.instance(); "
-        "shell.run_line_magic('load_ext', 'turtle_lesson'); print('ros2' in shell.magics_manager.magics['line'])"
+        "shell.run_line_magic('load_ext', 'turtle_lesson'); print('terminal' in shell.magics_manager.magics['line'])"
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, path))}
     run = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=540)

@@ -146,12 +146,3 @@ def test_a_single_file_is_run_by_python(terminal: Terminal) -> None:
         "publishing geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)",
     ]
     assert terminal.interrupt() == ["publisher stopped cleanly"]
-
-
-def test_a_module_of_a_sourced_package_is_run_by_python(terminal: Terminal) -> None:
-    assert terminal.say("python3 -m first_steps.talk_any_type geometry_msgs/Vector3") == [
-        "publisher: beginning loop",
-        "publishing geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)",
-    ]
-    assert terminal.interrupt() == ["publisher stopped cleanly"]
-    assert having(terminal.say("python3 -m first_steps.talk_no_type"), "python3 FILE runs a file")
