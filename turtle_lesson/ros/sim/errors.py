@@ -54,8 +54,6 @@ LIBRARY_FOLDER = os.path.dirname(os.__file__) + os.sep
 INSTALLED_FOLDERS = tuple(
     os.path.join(folder, "") for folder in (*site.getsitepackages(), site.getusersitepackages(), get_path("purelib"))
 )
-FAR = 1
-"""A file that is further up than that is not in the learner's workspace: its whole path is clearer."""
 
 before_showing: Callable[[BaseException], None] | None = None
 """Called with each error before it is shown: it may add a note of what to try."""
@@ -114,7 +112,7 @@ def shown_path(filename: str) -> str:
     if not os.path.isabs(filename):
         return filename
     here, file = Path.cwd(), Path(filename)
-    for steps, folder in enumerate((here, *here.parents[:FAR])):
+    for steps, folder in enumerate((here, here.parent)):  # what is further up is clearer by its whole path
         everybodys = len(folder.parts) == 1 or (steps and folder == Path(tempfile.gettempdir()))
         if file.is_relative_to(folder) and not everybodys:
             return "../" * steps + file.relative_to(folder).as_posix()

@@ -237,13 +237,6 @@ def make_tty(termios: ModuleType) -> ModuleType:
     return tty
 
 
-def refuse_fcntl() -> None:
-    """Refuse `fcntl`, by which a program would have its terminal not wait for keys (O_NONBLOCK)."""
-    raise ImportError(
-        "no fcntl here: select.select([sys.stdin], [], [], 0) tells whether a key was pressed", name="fcntl"
-    )
-
-
 def _module(name: str, names: dict[str, Any], *functions: Callable[..., Any]) -> ModuleType:
     module = ModuleType(name)
     module.__dict__.update({key: value for key, value in names.items() if not key.startswith("__")})
