@@ -201,6 +201,12 @@ def test_a_python_without_a_private_name_is_refused(monkeypatch: pytest.MonkeyPa
         patches._check_python()
 
 
+def test_a_newer_python_is_tried_and_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(patches, "NEWEST", (3, 10))
+    with pytest.warns(RuntimeWarning, match=r"was tried on Python 3\.11 to 3\.14"):
+        patches._check_python()
+
+
 LATE_NUMPY = """
 import sys, turtle_lesson
 from turtle_lesson.ros.runtime.world import open_world

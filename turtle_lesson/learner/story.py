@@ -13,8 +13,6 @@ from functools import cache
 from itertools import chain, combinations
 from pathlib import Path
 
-from ..ros.idl.names import nearest
-
 PAGES = (
     "00_welcome",
     "01_publish_and_subscribe",
@@ -51,9 +49,7 @@ def page_named(name: str) -> str:
     matches = [page for page in PAGES if name in (page, page.partition("_")[0])]
     if matches:
         return matches[0]
-    near = nearest(name, PAGES) if isinstance(name, str) else ""
-    hint = f'Did you mean "{near}"?' if near else f"There are {', '.join(PAGES)}."
-    raise ValueError(f"there is no page {name!r}. {hint}")
+    raise ValueError(f"there is no page {name!r}, but {', '.join(PAGES)}")
 
 
 def files_before(page: str) -> dict[str, str]:

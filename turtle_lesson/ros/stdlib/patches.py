@@ -14,6 +14,7 @@ import queue
 import random
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import thread as pool
 from contextlib import nullcontext
@@ -214,6 +215,11 @@ FINDERS = (ProgramFinder, LateFinder)
 """What a world puts before all other finders: one gives each program modules of its own, one has rows wait for their module.
 The one that makes the modules of message packages is there from `import turtle_lesson` on."""
 
+NEWEST = (3, 14)
+"""The newest Python with which the names below were seen to do what is expected of them."""
+
+TRIED = "turtle_lesson was tried on Python 3.11 to 3.14"
+
 PRIVATE_NAMES: tuple[tuple[Any, str], ...] = (
     (threading, "_time _newname _RLock _allocate_lock"),
     (threading.Condition(), "_lock"),
@@ -234,15 +240,14 @@ PRIVATE_NAMES: tuple[tuple[Any, str], ...] = (
 
 
 def _check_python() -> None:
-    """Raise NotImplementedError on a Python that lacks a private name, as one that is newer than 3.14 may."""
+    """Raise NotImplementedError if a private name is gone; warn of a Python that is newer than those that were tried."""
     gone = [
         f"{name} ({owner!r})" for owner, names in PRIVATE_NAMES for name in names.split() if not hasattr(owner, name)
     ]
     if gone:
-        raise NotImplementedError(
-            f"turtle_lesson runs on Python 3.11 to 3.14; this one, {sys.version.split()[0]}, has changed what simulated "
-            f"programs need: {', '.join(gone)}"
-        )
+        raise NotImplementedError(f"this Python has changed what simulated programs need: {', '.join(gone)}. {TRIED}")
+    if sys.version_info[:2] > NEWEST:
+        warnings.warn(TRIED, RuntimeWarning, stacklevel=3)
 
 
 # -- putting in and taking out ---------------------------------------------------------------------------------------
