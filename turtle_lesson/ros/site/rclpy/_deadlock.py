@@ -205,7 +205,7 @@ def why_never_awaited(future: Future, task: Task, strand: Strand | None) -> str:
 
 def _somebody_may_complete(future: Future, executor: Executor, taken: Callable[[Any], bool]) -> bool:
     """Whether some callback or task can run while these groups are taken, since it may set the result."""
-    if executor._resumed or executor._polled:
+    if executor._resumed or executor._delayed:
         return True
     nodes = future._answered_by._node.context._nodes
     return any(_may_act(entity, taken) for node in nodes for entity in node._ros_waiting_entities)

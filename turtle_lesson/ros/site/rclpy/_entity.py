@@ -175,7 +175,6 @@ class Entity(Destroyable):
             if group is not None:
                 group._active_entity = self
             if self._is_async:
-                executor._has_polled = False  # a coroutine that lets others go first goes on in the next cycle
                 executor._execute(self)
                 return
         simulation, traced = executor._simulation, self._traced

@@ -28,7 +28,7 @@ from turtle_lesson.ros.stdlib.threads import number_of_pool
 
 from ._blocking import drive, drives_the_simulation, spin_live
 from ._deadlock import executor_of_worker, is_notebook, others_may_act, why_never_done
-from ._entity import NO_TURN, WAITABLE, Entity, trace_entity
+from ._entity import WAITABLE, Entity, trace_entity
 from ._hints import explain_call, no_node, refuse_unbuilt
 from ._state import RclpyState
 from .context import Context
@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 
 Job = Any  # an Entity, or a Task
 Condition = Callable[[], bool] | None
+
+LET_OTHERS_GO = 100_000
+"""After how long, in ns, a coroutine goes on that only lets others go first, as with asyncio.sleep(0)."""
 
 
 class TimeoutException(Exception):
@@ -88,9 +91,8 @@ class Executor:
         self._signalled: deque[Entity] = deque()
         self._batch: list[Job] = []
         self._resumed: list[Task] = []
-        self._polled: list[Task] = []  # whose coroutine only let others go first, as with asyncio.sleep(0)
+        self._delayed = 0  # tasks whose coroutine only let others go first, as with asyncio.sleep(0)
         self._must_look = True  # there may be more to do than to run the callbacks of what has signalled
-        self._has_polled = False  # nothing has happened since they last looked
         self._blocked: list[Entity] = []
         self._waiter: Strand | None = None  # the strand that a signal wakes: the last that began to wait
         self._waiters: list[Strand] = []
@@ -129,13 +131,10 @@ class Executor:
             self._nodes_seen += 1
             node._ros_place = (self, self._nodes_seen)
         if assignment.missed or not comes_again:
-            looked_at = list(assignment.missed) if comes_again else list(node._ros_waiting_entities)
+            looked_at = list(assignment.missed if comes_again else node._ros_waiting_entities)
             assignment.missed.clear()
             for entity in looked_at:
-                if comes_again and entity._turn is not NO_TURN:
-                    entity._signal()
-                else:
-                    self._adopt(entity, node)
+                self._adopt(entity, node)
         return True
 
     def _adopt(self, entity: Entity, node: Node) -> None:
@@ -171,6 +170,14 @@ class Executor:
         self._resumed.append(task)
         self.wake()
 
+    def _resume_later(self, task: Task) -> None:
+        self._delayed += 1
+        self._simulation.at(self._simulation.now + LET_OTHERS_GO, self._resume_delayed, task)
+
+    def _resume_delayed(self, task: Task) -> None:
+        self._delayed -= 1
+        self._resume_task(task)
+
     def wake(self) -> None:
         """Have a waiting `spin_once` look again at what it waits for."""
         self._must_look = True
@@ -196,32 +203,26 @@ class Executor:
                     self._blocked.append(job)
             if condition is not None and condition():
                 return None
-            if self._signalled or self._resumed or (self._polled and not self._has_polled):
+            if self._signalled or self._resumed:
                 self._begin_cycle()
                 continue
             if self._is_shutdown or not self._context.ok():
                 self._raise_shutdown()
             if deadline is not None and self._simulation.now >= deadline:
-                if not self._polled:
-                    return None
-                self._begin_cycle()
-                continue
+                return None
             self._wait(strand, deadline)
 
     def _begin_cycle(self) -> None:
         """Take all that is ready now as the next batch; the one before is done."""
         self._must_look = True
-        self._has_polled = not self._signalled and not self._resumed
         batch = self._batch
         batch += sorted(self._signalled, key=attrgetter("_turn"), reverse=True)
         for entity in batch:
             entity._listed_in = None
         self._signalled.clear()
-        if self._resumed or self._polled:
-            tasks = [*self._polled, *self._resumed]
-            batch += reversed(tasks) if self._tasks_in_order else sorted(tasks, key=attrgetter("_number"))
-            self._polled.clear()
-            self._resumed.clear()
+        tasks = self._resumed
+        batch += reversed(tasks) if self._tasks_in_order else sorted(tasks, key=attrgetter("_number"))
+        tasks.clear()
 
     def _raise_shutdown(self) -> None:
         raise ShutdownException if self._is_shutdown else ExternalShutdownException
@@ -331,14 +332,14 @@ class Executor:
                     if woken and not self._is_shutdown:
                         raise ExternalShutdownException
                     return False
-                elif signalled or self._batch or self._resumed or (self._polled and not self._has_polled):
+                elif signalled or self._batch or self._resumed:
                     try:
                         job = self._next(strand, None, None)
                     except ShutdownException:
                         return False
                     self._execute(job)
                 else:
-                    self._must_look = bool(self._polled) or len(self._spinning) > 1
+                    self._must_look = len(self._spinning) > 1
                     return True
                 if not (signalled or self._must_look):
                     return True
@@ -378,7 +379,7 @@ class Executor:
         deadline = None if timeout_sec is None else self._deadline(timeout_sec)
         if deadline is None and future._answered_by is not None and (problem := why_never_done(future, self, strand)):
             raise NeverWakes(problem)
-        if deadline is None and type(self) is SingleThreadedExecutor:
+        if deadline is None and type(self) is SingleThreadedExecutor and self._context.ok():
             self._spin_until(strand, future)
             return
         while self._context.ok() and not future._is_done() and not future.cancelled() and not self._is_shutdown:
@@ -388,46 +389,26 @@ class Executor:
             self.spin_once_until_future_complete(future, left)
 
     def _spin_until(self, strand: Strand, future: Future) -> None:
-        """Do what a loop over `spin_once_until_future_complete` without a timeout does, written out.
-
-        The common case is that one callback became ready while the strand was waiting; it is run without a batch.
-        """
-        context, signalled, waiters = self._context, self._signalled, self._waiters
-        park, spinning = self._simulation.park, self._spinning
-        spinning.append(strand)
+        """What a loop over `spin_once_until_future_complete` without a timeout does, written out as that of `spin`."""
+        context, signalled = self._context, self._signalled
+        self._spinning.append(strand)
         try:
-            while not (
-                future._done or future._cancelled or context.ended or not context.initialized or self._is_shutdown
-            ):
-                while not (signalled or self._batch or self._resumed or self._polled):
-                    if self._is_shutdown:
-                        return
-                    if context.ended:
+            while not (future._done or future._cancelled or context.ended or self._is_shutdown):
+                if not (signalled or self._batch or self._resumed):
+                    self._wait(strand, None)
+                    if context.ended and not self._is_shutdown:
                         raise ExternalShutdownException
-                    waiters.append(strand)
-                    self._waiter = strand
-                    try:
-                        park(strand)
-                    finally:
-                        waiters.remove(strand)
-                        self._waiter = waiters[-1] if waiters else None
-                    if future._done and not self._batch:
-                        return
-                if len(signalled) == 1 and not (self._batch or self._resumed or self._polled):
+                elif len(signalled) == 1 and not (self._batch or self._resumed):
                     signalled.pop()._run(self, False)
                 else:
                     job = self._next(strand, None, future._is_done)
-                    if job is None:
-                        return
-                    self._execute(job)
-                if self._waiter is not None:
-                    self._wake_another_spinner()
+                    if job is not None:
+                        self._execute(job)
         except ShutdownException:
             return
         finally:
-            spinning.remove(strand)
-            if self._waiter is not None:
-                self._wake_another_spinner()
+            self._spinning.remove(strand)
+            self._wake_another_spinner()
 
     @drives_the_simulation
     def spin_once_until_future_complete(self, future: Future, timeout_sec: float | TimeoutObject | None = None) -> None:
@@ -505,7 +486,7 @@ class Executor:
 
     def _may_run_anything(self) -> bool:
         """Whether there is a callback that could be run, or whether all are held up by callbacks that wait."""
-        if self._batch or self._resumed or self._polled:
+        if self._batch or self._resumed or self._delayed:
             return True
         entities = [entity for node in self._nodes for entity in node._ros_waiting_entities]
         return not entities or any(entity.callback_group.can_execute(entity) for entity in entities)

@@ -249,8 +249,7 @@ class Task(Future):
         if awaited is not None:
             awaited._callbacks.append(self._go_on)
         elif self._executor is not None:
-            self._executor._polled.append(self)
-            self._executor._must_look = True
+            self._executor._resume_later(self)
 
     def _why_not_awaited(self, awaited: Any) -> Exception | None:
         """What is wrong with what the coroutine waits for, if anything is."""
