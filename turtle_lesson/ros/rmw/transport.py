@@ -6,7 +6,7 @@ import zlib
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, takewhile
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -33,102 +33,14 @@ implementations have for their answers to heartbeats are 5 to 10 ms."""
 ASKED_FOR_AT_ONCE = 256
 """How many missing messages one answer to a heartbeat can name (RTPS's SequenceNumberSet)."""
 
-LINGER = 1_000_000_000
-"""How long, in ns, a publisher that goes still repeats what was lost: as long as one of Cyclone DDS."""
-
 USUAL = Conditions()
 Deliver = Callable[[Any, int], object]
 """Gets what has arrived, and when it was sent (ns)."""
 
 
-class Line:
-    """Base class: `deliver` gets what arrives, `told` how many messages are known to be lost.
-
-    Subclasses `send` messages, and tell what is `under_way`.
-    """
-
-    def __init__(
-        self,
-        simulation: Simulation,
-        latency: int,
-        deliver: Deliver,
-        told: Callable[[int], object],
-        network: Network,
-        ends: str,
-    ) -> None:
-        self._simulation = simulation
-        self._usual = latency
-        self._deliver = deliver
-        self._told = told
-        self._network = network
-        self._ends = ends
-        self._random: Random | None = None
-        self.conditions = USUAL
-
-    def use(self, conditions: Conditions | None) -> None:
-        """Have what is sent from now on travel under these conditions; None for the usual ones."""
-        self.conditions = conditions or USUAL
-        if self._random is None and (self.conditions.loss or self.conditions.jitter):
-            self._random = self._network.random(self._ends)
-
-    def is_busy(self) -> bool:
-        """Whether something has not arrived yet, as far as that will ever be known."""
-        return False
-
-    def close(self) -> None:
-        """The subscription has gone: deliver nothing more."""
-        self._deliver = self._told = nobody
-
-    def linger(self) -> None:
-        """The publisher has gone: what is under way still arrives."""
-
-    def _way(self) -> int:
-        """How long a transmission takes now, in ns: never less than in the usual network."""
-        conditions = self.conditions
-        longer = max(0, conditions.latency - LATENCY)
-        if conditions.jitter and self._random is not None:
-            longer += int(self._random.random() * conditions.jitter)
-        return self._usual + longer
-
-    def _is_lost(self) -> bool:
-        loss = self.conditions.loss
-        return loss > 0 and self._random is not None and self._random.random() < loss
-
-
-class BestEffortLine(Line):
-    """What is lost is lost."""
-
-    def __init__(self, *arguments: Any) -> None:
-        super().__init__(*arguments)
-        self._sent = 0
-        self._expected = 1
-        self._travelling: dict[int, tuple[int, Any]] = {}
-
-    def send(self, wire: Any, sent: int) -> None:
-        """Take a message (a copy of its own) that was published at `sent` (ns)."""
-        self._sent += 1
-        if not self._is_lost():
-            self._travelling[self._sent] = (sent, wire)
-            self._simulation.at(self._simulation.now + self._way(), self._arrive, self._sent)
-
-    def under_way(self) -> list[tuple[int, Any]]:
-        """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
-        return [self._travelling[number] for number in sorted(self._travelling) if number >= self._expected]
-
-    def _arrive(self, number: int) -> None:
-        sent, wire = self._travelling.pop(number)
-        gap = number - self._expected
-        if gap < 0:
-            return  # it was overtaken, and counted as lost then
-        self._expected = number + 1
-        if gap:
-            self._told(gap)
-        self._deliver(wire, sent)
-
-
 @dataclass(slots=True, eq=False)
 class _Parcel:
-    """A message on a reliable line: travelling until `due` (ns), here, missing, or given up."""
+    """A message on its way, and when it was published (ns): it will be here when it is `due` (ns), is here, or given up."""
 
     wire: Any
     sent: int
@@ -142,15 +54,117 @@ class _Parcel:
         return self.due is None and not self.here and not self.given_up
 
 
-class ReliableLine(Line):
-    """What is lost is sent again; `depth` is how many messages the sender keeps for that, None for all."""
+class Line:
+    """Base class: `deliver` gets what arrives, `told` how many messages are known to be lost.
 
-    def __init__(self, *arguments: Any, depth: int | None = None) -> None:
-        super().__init__(*arguments)
+    `depth` is how many messages the sender keeps, None for all. Subclasses say what becomes of a lost transmission.
+    """
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        latency: int,
+        deliver: Deliver,
+        told: Callable[[int], object],
+        network: Network,
+        ends: str,
+        depth: int | None = None,
+    ) -> None:
+        self._simulation = simulation
+        self._usual = latency
+        self._deliver = deliver
+        self._told = told
+        self._network = network
+        self._ends = ends
         self._depth = depth
+        self._random: Random | None = None
         self._parcels: deque[_Parcel] = deque()
         self._gap = 0
-        self._asks = False
+        self.conditions = USUAL
+
+    def use(self, conditions: Conditions | None) -> None:
+        """Have what is sent from now on travel under these conditions; None for the usual ones."""
+        self.conditions = conditions or USUAL
+        if self._random is None and (self.conditions.loss or self.conditions.jitter):
+            self._random = self._network.random(self._ends)
+
+    def send(self, wire: Any, sent: int) -> None:
+        """Take a message (a copy of its own) that was published at `sent` (ns)."""
+        parcel = _Parcel(wire, sent)
+        self._parcels.append(parcel)
+        self._transmit(parcel)
+
+    def under_way(self) -> list[tuple[int, Any]]:
+        """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
+        return [(each.sent, each.wire) for each in self._parcels if each.here or each.due is not None]
+
+    def is_busy(self) -> bool:
+        """Whether something has not arrived yet, as far as that will ever be known."""
+        return bool(self._parcels)
+
+    def close(self) -> None:
+        """The subscription has gone: deliver nothing more."""
+        self._deliver = self._told = nobody
+        self._parcels.clear()
+
+    def _way(self) -> int:
+        """How long a transmission takes now, in ns: never less than in the usual network."""
+        conditions = self.conditions
+        longer = max(0, conditions.latency - LATENCY)
+        if conditions.jitter and self._random is not None:
+            longer += int(self._random.random() * conditions.jitter)
+        return self._usual + longer
+
+    def _transmit(self, parcel: _Parcel) -> None:
+        loss = self.conditions.loss
+        if loss > 0 and self._random is not None and self._random.random() < loss:
+            parcel.due = None
+            self._is_lost(parcel)
+        else:
+            parcel.due = self._simulation.now + self._way()
+            self._simulation.at(parcel.due, self._arrive, parcel)
+
+    def _is_lost(self, parcel: _Parcel) -> None:
+        """This transmission of a message was lost."""
+        raise NotImplementedError
+
+    def _arrive(self, parcel: _Parcel) -> None:
+        parcel.due, parcel.here = None, True
+        self._hand_over()
+
+    def _hand_over(self) -> None:
+        """Deliver, in their order, what is here and waits for nothing before it."""
+        parcels = self._parcels
+        while parcels and (parcels[0].here or parcels[0].given_up):
+            parcel = parcels.popleft()
+            if parcel.given_up:
+                self._gap += 1
+                continue
+            if self._gap:
+                gap, self._gap = self._gap, 0
+                self._told(gap)
+            self._deliver(parcel.wire, parcel.sent)
+
+
+class BestEffortLine(Line):
+    """What is lost is lost, and so is what was overtaken."""
+
+    def _is_lost(self, parcel: _Parcel) -> None:
+        parcel.given_up = True
+        self._hand_over()
+
+    def _arrive(self, parcel: _Parcel) -> None:
+        if parcel.given_up:
+            return
+        for earlier in takewhile(lambda each: each is not parcel, self._parcels):
+            earlier.given_up, earlier.due = True, None
+        super()._arrive(parcel)
+
+
+class ReliableLine(Line):
+    """What is lost is sent again."""
+
+    _asks = False
 
     def use(self, conditions: Conditions | None) -> None:
         """See Line. Where nothing came through, what is missing is asked for anew."""
@@ -159,42 +173,14 @@ class ReliableLine(Line):
             self._ask_again()
 
     def send(self, wire: Any, sent: int) -> None:
-        """Take a message (a copy of its own) that was published at `sent` (ns)."""
+        """See Line."""
         parcel = _Parcel(wire, sent)
         self._parcels.append(parcel)
-        if len(self._parcels) > 1:
-            self._give_up_old_ones()
+        self._give_up_old_ones()
         self._transmit(parcel)
 
-    def under_way(self) -> list[tuple[int, Any]]:
-        """What has been sent and will arrive, as far as that is known: when it was published (ns), and the message."""
-        return [(each.sent, each.wire) for each in self._parcels if each.here or each.due is not None]
-
-    def is_busy(self) -> bool:
-        """See Line."""
-        return bool(self._parcels)
-
-    def close(self) -> None:
-        """See Line."""
-        super().close()
-        self._parcels.clear()
-
-    def linger(self) -> None:
-        """See Line. What is missing is repeated for some time."""
-        self._simulation.at(self._simulation.now + LINGER, self._give_up, None)
-
-    def _give_up(self, _: object) -> None:
-        for parcel in self._parcels:
-            parcel.given_up = parcel.missing
-        self._hand_over()
-
-    def _transmit(self, parcel: _Parcel) -> None:
-        if self._is_lost():
-            parcel.due = None
-            self._ask_again()
-        else:
-            parcel.due = self._simulation.now + self._way()
-            self._simulation.at(parcel.due, self._arrive, parcel)
+    def _is_lost(self, parcel: _Parcel) -> None:
+        self._ask_again()
 
     def _ask_again(self) -> None:
         """Have what is missing sent again some time later; where nothing comes through, nobody asks."""
@@ -223,23 +209,6 @@ class ReliableLine(Line):
         while parcels[0].given_up:
             parcels.popleft()
             self._gap += 1
-
-    def _arrive(self, parcel: _Parcel) -> None:
-        parcel.due, parcel.here = None, True
-        self._hand_over()
-
-    def _hand_over(self) -> None:
-        """Deliver, in their order, what is here and waits for nothing before it."""
-        parcels = self._parcels
-        while parcels and (parcels[0].here or parcels[0].given_up):
-            parcel = parcels.popleft()
-            if parcel.given_up:
-                self._gap += 1
-                continue
-            if self._gap:
-                gap, self._gap = self._gap, 0
-                self._told(gap)
-            self._deliver(parcel.wire, parcel.sent)
 
 
 # -- latency ------------------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .endpoint import LIVELINESS, MATCHED, MESSAGE_LOST, End, Quality, Watchdog
 from .reader import Reader
-from .transport import BestEffortLine, ReliableLine
+from .transport import BestEffortLine, Line, ReliableLine
 
 if TYPE_CHECKING:
     from .graph import NodeEntry, Topic
@@ -34,7 +34,7 @@ class Writer(End):
         self._simulation = topic.simulation
         self._latency = topic.latency
         self._usual: tuple[Reader, ...] = ()
-        self._lines: dict[Reader, BestEffortLine | ReliableLine] = {}
+        self._lines: dict[Reader, Line] = {}
         self._kept: deque[tuple[int, Any]] | None = deque(maxlen=quality.depth) if quality.latched else None
         self._lease: Watchdog | None = None
         if quality.manual and quality.lease is not None:
@@ -91,15 +91,14 @@ class Writer(End):
         self._also = None if not steps else steps[0] if len(steps) == 1 else partial(_do_all, steps)
         self._idle = not steps and not self._usual and self.note is None
 
-    def _line_to(self, reader: Reader) -> BestEffortLine | ReliableLine:
+    def _line_to(self, reader: Reader) -> Line:
         lifespan = self.quality.lifespan
         deliver = reader.take_in if lifespan is None else partial(reader.take_in, lifespan=lifespan)
         told = partial(reader.happens, MESSAGE_LOST)
         ends = f"{self.topic.name} {self.node.full_name} {reader.node.full_name}"
         arguments = (self._simulation, self._latency, deliver, told, self.topic.network, ends)
-        if self.quality.reliable and reader.quality.reliable:
-            return ReliableLine(*arguments, depth=self.quality.depth)
-        return BestEffortLine(*arguments)
+        kind = ReliableLine if self.quality.reliable and reader.quality.reliable else BestEffortLine
+        return kind(*arguments, depth=self.quality.depth)
 
     def _send_by_lines(self, message: Any) -> None:
         for line in self._lines.values():
@@ -165,9 +164,7 @@ class Writer(End):
         self.readers = tuple(each for each in self.readers if each is not reader)
         line = self._lines.pop(reader, None)
         if line is not None and any(each is self for each, _ in self.topic.writers):
-            line.close()
-        elif line is not None:
-            line.linger()
+            line.close()  # it is the reader that goes; if it is this publisher, what it has sent still arrives
         self._plan()
         for end in (self, reader):
             end.will_happen(MATCHED, 0, -1)
