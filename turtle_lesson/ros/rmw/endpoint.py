@@ -28,6 +28,8 @@ class End:
         self.profile: Any = None
         """The profile that the program gave, for displays of this end."""
         self.tallies: dict[str, Tally] = {}
+        self.last_policy = "INVALID"
+        """The name of the policy because of which another end was refused last."""
         self._deadline: Watchdog | None = None
 
     def listen(self, kind: str) -> Tally:
@@ -47,7 +49,7 @@ class End:
         """Decide again what is done with each message."""
         raise NotImplementedError
 
-    def happens(self, kind: str, *steps: Any) -> None:
+    def happens(self, kind: str, *steps: int) -> None:
         """Something happens to this end now."""
         tally = self.tallies.get(kind)
         if tally is not None:
@@ -58,20 +60,22 @@ class End:
         if kind in self.tallies:
             self.topic.simulation.at(self.topic.soon, self._learn, (kind, *steps))
 
-    def is_refused(self, kind: str, *what: Any) -> None:
-        """This end meets one that it cannot be connected with. Told a moment later, when somebody listens."""
-        self.topic.simulation.at(self.topic.soon, self._learn, (kind, *what))
+    def is_refused(self, policy: str | None) -> None:
+        """This end meets one of another type, or whose policy of this name does not fit. Told a moment later."""
+        self.topic.simulation.at(self.topic.soon, self._learn_refusal, policy)
 
     def _learn(self, news: tuple[Any, ...]) -> None:
         self.happens(*news)
+
+    def _learn_refusal(self, policy: str | None) -> None:
+        self.last_policy = policy or self.last_policy
+        self.happens(INCOMPATIBLE_QOS if policy else INCOMPATIBLE_TYPE, 1)
 
     def connections(self) -> int:
         """With how many ends of the other side this one is connected."""
         raise NotImplementedError
 
     def _tally_of(self, kind: str) -> Tally:
-        if kind == INCOMPATIBLE_QOS:
-            return Refusals()
         return Tally(self.connections(), self.connections()) if kind == MATCHED else Tally(0)
 
 
@@ -135,36 +139,19 @@ class Tally:
         self.news = any(numbers)
         self.wake: Callable[[], object] = nobody
 
-    def add(self, *steps: Any) -> None:
+    def add(self, *steps: int) -> None:
         """It has happened: the numbers change by so much."""
         self._numbers = tuple(map(add, self._numbers, steps))
         self._changes = tuple(map(add, self._changes, steps))
         self.news = True
         self.wake()
 
-    def take(self) -> tuple[Any, ...]:
+    def take(self) -> tuple[int, ...]:
         """The numbers, then their changes since the last look."""
         taken = (*self._numbers, *self._changes)
         self._changes = (0,) * len(self._numbers)
         self.news = False
         return taken
-
-
-class Refusals(Tally):
-    """How many ends of the other side could not be accepted, and because of which policy the last one was not."""
-
-    def __init__(self) -> None:
-        super().__init__(0)
-        self._policy = "INVALID"
-
-    def add(self, *steps: Any) -> None:
-        """One more, because of this policy."""
-        (self._policy,) = steps
-        super().add(1)
-
-    def take(self) -> tuple[Any, ...]:
-        """Total, change, and the policy's ROS name."""
-        return (*super().take(), self._policy)
 
 
 # -- watchdog -----------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ..idl.names import is_hidden
-from .endpoint import INCOMPATIBLE_QOS, INCOMPATIBLE_TYPE, End, Quality
+from .endpoint import End, Quality
 from .network import Conditions, Network
 from .reader import Reader
 from .service import ClientEnd, ServerEnd
@@ -107,15 +107,12 @@ class Topic:
 
 def _introduce(writer: Writer, reader: Reader, same_type: bool) -> None:
     """Connect two ends, or tell both why that cannot be."""
-    policy = writer.quality.refusal(reader.quality)
-    if not same_type:
-        for end in (writer, reader):
-            end.is_refused(INCOMPATIBLE_TYPE, 1)
-    elif policy is None:
+    policy = writer.quality.refusal(reader.quality) if same_type else None
+    if same_type and policy is None:
         writer.meet(reader)
-    else:
-        for end in (writer, reader):
-            end.is_refused(INCOMPATIBLE_QOS, policy)
+        return
+    for end in (writer, reader):
+        end.is_refused(policy)
 
 
 class Graph:

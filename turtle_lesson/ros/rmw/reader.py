@@ -23,15 +23,12 @@ class Reader(End):
         self.times: deque[tuple[int, int]] | None = None
         self.arrivals: deque[int] | None = None
         """When each message that waits has come (ns), where a trace is kept."""
-        self.beside: list[deque[Any]] = []
-        """Queues in step with `queue`, which somebody keeps beside it."""
         self.wake: Callable[[], object] = nobody
 
     def keep_times(self) -> None:
         """From now on keep, beside each message, when it was sent and when it arrived (ns)."""
         if self.times is None:
             self.times = deque(maxlen=self.quality.depth)
-            self.beside.append(self.times)
 
     @property
     def watches(self) -> bool:
@@ -83,8 +80,9 @@ class Reader(End):
         """A message has become too old: nobody gets it any more, if it still waits."""
         for index, waiting in enumerate(self.queue):
             if waiting is wire:
-                for queue in (self.queue, *self.beside):
-                    del queue[index]
+                for queue in (self.queue, self.times, self.arrivals):
+                    if queue is not None:
+                        del queue[index]
                 return
 
     def under_way(self) -> list[tuple[int, Any]]:

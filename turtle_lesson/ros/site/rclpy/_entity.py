@@ -254,7 +254,6 @@ def trace_entity(entity: Any, node: Node, trace: Trace) -> None:
     if end is not None:  # note beside each message or request that waits when it came
         arrivals = deque([trace.simulation.now] * len(end.queue), maxlen=getattr(end.queue, "maxlen", None))
         end.arrivals = entity._traced.arrivals = arrivals
-        getattr(end, "beside", []).append(arrivals)  # or what expires in the queue would leave its time behind
     elif entity._time is not trace.simulation:
         entity._traced.arrivals = deque()  # a timer whose ticks are in another time is ready when it begins
 

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple, cast
 
+from turtle_lesson.ros.rmw.endpoint import End
+
 from ._entity import WAITABLE, Entity
 from ._rclpy_pybind11 import UnsupportedEventTypeError
 from .callback_groups import CallbackGroup
@@ -135,7 +137,8 @@ class EventHandler(Entity):
         if not isinstance(event_type, expected):
             raise UnsupportedEventTypeError(f"one of {expected.__name__} is expected, got {event_type!r}")
         kind, self._info = (PUBLISHER_EVENTS if publishes else SUBSCRIPTION_EVENTS)[event_type]
-        self._tally = parent_impl._end().listen(kind)
+        self._end: End = parent_impl._end()
+        self._tally = self._end.listen(kind)
         self._tally.wake = self._signal
 
     def __repr__(self) -> str:
@@ -147,7 +150,7 @@ class EventHandler(Entity):
     def _take(self) -> tuple[Any, ...]:
         info = self._info(*self._tally.take())
         if isinstance(info, QoSRequestedIncompatibleQoSInfo):
-            info = info._replace(last_policy_kind=rmw_qos_policy_kind_t(QoSPolicyKind[info.last_policy_kind]))  # type: ignore[misc]
+            info = info._replace(last_policy_kind=rmw_qos_policy_kind_t(QoSPolicyKind[self._end.last_policy]))
         return (info,)
 
 
