@@ -8,6 +8,7 @@ import sys
 import warnings
 import weakref
 from collections.abc import Callable, Generator
+from functools import partial
 from itertools import count
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -79,7 +80,7 @@ class Future:
         Only asyncio gives a `msg`: then its coroutines give up waiting, and nothing becomes of the future.
         """
         if msg is not FOR_ALL:
-            for callback in [each for each in self._callbacks if getattr(each, "_of_asyncio", False)]:
+            for callback in [each for each in self._callbacks if isinstance(each, _OfAsyncio)]:
                 self._callbacks.remove(callback)
                 callback(self)
             return False
@@ -140,7 +141,7 @@ class Future:
         Only asyncio gives a `context`: then its loop calls the callback.
         """
         if context is not None:
-            callback = _called_by_asyncio(callback, context)
+            callback = _OfAsyncio(asyncio.get_running_loop().call_soon_threadsafe, callback, context=context)
         if self._done:
             self._call(callback)
         else:
@@ -175,15 +176,10 @@ class Future:
             self._executor.create_task(callback, self)
 
 
-def _called_by_asyncio(callback: Callable[..., Any], context: Any) -> Callable[[Future], None]:
-    """A done callback of asyncio's, to be called by the loop that runs now."""
-    loop = asyncio.get_running_loop()
+class _OfAsyncio(partial[object]):
+    """A done callback of asyncio's: it has the loop that was running call asyncio's function."""
 
-    def call(future: Future) -> None:
-        loop.call_soon_threadsafe(callback, future, context=context)
-
-    call._at_once = call._of_asyncio = True  # type: ignore[attr-defined]
-    return call
+    _at_once = True
 
 
 class Task(Future):
@@ -212,16 +208,6 @@ class Task(Future):
     def executing(self) -> bool:
         """Whether a step of it runs right now."""
         return self._executing
-
-    def cancel(self, msg: Any = FOR_ALL) -> bool | None:
-        """Stop the coroutine where it waits."""
-        if msg is not FOR_ALL:
-            return super().cancel(msg)
-        if inspect.iscoroutine(self._handler) and not self._executing:
-            self._handler.close()
-        super().cancel()
-        self._end()
-        return None
 
     def __call__(self) -> None:
         """Do one step: until the coroutine waits for something, or ends. Errors are kept for `result()`."""
