@@ -274,12 +274,7 @@ class Rate:
     def _wait_alone(self) -> None:
         """In a notebook's cell, where nobody spins: until the timer is due."""
         timer, wake_up = self._timer, WakeUp(self._context)
-        left = timer.time_until_next_call() or 0
-        if timer._time is not timer._simulation and left > 0:
-            raise NeverWakes(
-                "this rate would sleep forever: its clock follows /clock, and nothing receives /clock meanwhile"
-            )
-        wake_up.wait(timer._simulation.now + left)
+        wake_up.wait(timer._simulation.now + (timer.time_until_next_call() or 0))
         timer._take()
 
     def destroy(self) -> None:
