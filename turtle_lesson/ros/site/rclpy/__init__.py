@@ -55,9 +55,6 @@ class InitContextManager:
     def __init__(self, context: Context) -> None:
         self.context = context
 
-    def __repr__(self) -> str:
-        return f"<rclpy {'is' if self.context.ok() else 'was'} initialized>"
-
     def _ipython_display_(self) -> None:
         """In a notebook nothing is shown, as with Humble, whose `init` returns None."""
 
@@ -127,22 +124,10 @@ def create_node(
     enable_logger_service: bool = False,
 ) -> Node:
     """Make a `Node`; the keywords are its constructor's."""
+    arguments = locals().copy()
     from .node import Node
 
-    return Node(
-        node_name,
-        context=context,
-        cli_args=cli_args,
-        namespace=namespace,
-        use_global_arguments=use_global_arguments,
-        enable_rosout=enable_rosout,
-        rosout_qos_profile=rosout_qos_profile,
-        start_parameter_services=start_parameter_services,
-        parameter_overrides=parameter_overrides,
-        allow_undeclared_parameters=allow_undeclared_parameters,
-        automatically_declare_parameters_from_overrides=automatically_declare_parameters_from_overrides,
-        enable_logger_service=enable_logger_service,
-    )
+    return Node(**arguments)
 
 
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:

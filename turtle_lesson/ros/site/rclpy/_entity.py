@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 from collections import deque
 from collections.abc import Callable
-from types import FunctionType
+from types import FunctionType, GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from turtle_lesson.ros.rmw.trace import CHUNK, PLUMBING, Callback, Trace
@@ -61,6 +61,7 @@ class Handle:
 class Destroyable:
     """What a node has made: an entity or a publisher. A `with` block destroys it at its end."""
 
+    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Publisher[String] in a hint
     _node: Node | None = None
     _destroyed = False
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from types import GenericAlias
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from turtle_lesson.ros.idl import checks
@@ -36,7 +35,6 @@ class Client(Entity):
     _kind = CLIENT
     _node: Node
     _words = Words()
-    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Client[…] in a hint
 
     def __init__(
         self, end: ClientEnd, srv_type: Any, srv_name: str, qos_profile: QoSProfile, callback_group: CallbackGroup

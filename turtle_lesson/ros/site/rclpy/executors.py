@@ -74,13 +74,6 @@ class TimeoutObject:
 class Executor:
     """Waits, chooses and runs. Subclasses may override `spin_once`, which `spin` calls."""
 
-    def __init_subclass__(cls, **keywords: Any) -> None:
-        """Let an executor of a program's own be spun from a plain notebook cell, too."""
-        super().__init_subclass__(**keywords)
-        for name in ("spin_once", "spin_once_until_future_complete"):
-            if name in vars(cls):
-                setattr(cls, name, drives_the_simulation(vars(cls)[name]))
-
     def __init__(self, *, context: Context | None = None) -> None:
         self._context = get_default_context() if context is None else context
         self._simulation = current_world().sim
@@ -446,6 +439,7 @@ class Executor:
         if self._waiter is not None and (self._batch or self._signalled or self._resumed):
             self._simulation.wake(self._waiter)
 
+    @drives_the_simulation
     def wait_for_ready_callbacks(
         self,
         timeout_sec: float | TimeoutObject | None = None,

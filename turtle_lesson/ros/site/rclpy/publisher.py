@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import GenericAlias
 from typing import Any
 
 from turtle_lesson.ros.idl import checks
@@ -26,8 +25,6 @@ LOOK_AGAIN = 1_000_000
 
 class Publisher(Destroyable):
     """Made by `Node.create_publisher`."""
-
-    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Publisher[String] in a hint
 
     def __init__(
         self,

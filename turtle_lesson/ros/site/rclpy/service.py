@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import GenericAlias
 from typing import Any
 
 from turtle_lesson.ros.idl import checks
@@ -18,7 +17,6 @@ class Service(Entity):
     """Made by `Node.create_service`. The callback gets the request and a fresh response, and returns the response."""
 
     _kind = SERVICE
-    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Service[…] in a hint
 
     def __init__(
         self,

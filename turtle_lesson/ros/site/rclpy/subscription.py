@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from types import GenericAlias
 from typing import Any
 
 from turtle_lesson.ros.distro import MESSAGE_INFO
@@ -22,7 +21,6 @@ class Subscription(Entity):
     """Made by `Node.create_subscription`. A callback with two parameters also gets the message's times (ns)."""
 
     _kind = SUBSCRIPTION
-    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: Subscription[String] in a hint
 
     def __init__(
         self,

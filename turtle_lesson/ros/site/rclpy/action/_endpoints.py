@@ -9,7 +9,6 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable
 from random import Random
-from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from unique_identifier_msgs.msg import UUID
@@ -83,7 +82,6 @@ class ActionEndpoint(Entity):
     Each of the `profiles` is for the part at the same place in PARTS.
     """
 
-    __class_getitem__: Any = classmethod(GenericAlias)  # newer releases: ActionClient[Goal, Result, Feedback] in a hint
     _kind = WAITABLE
     _node: Node
 
