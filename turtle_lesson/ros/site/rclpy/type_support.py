@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, TypeVar
 
+from turtle_lesson.ros.idl.names import without_part
+
 MsgT = TypeVar("MsgT")
 SrvT = TypeVar("SrvT")
 SrvRequestT = TypeVar("SrvRequestT")
@@ -33,8 +35,13 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
     """Raise RuntimeError for a message or action type."""
     check_for_type_support(srv_type)
     if not hasattr(srv_type, "Request") or not hasattr(srv_type, "Response"):
-        error = RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")
-        name, _, part = getattr(srv_type, "__name__", "").rpartition("_")
-        if part in {"Request", "Response"}:
-            error.add_note(f"The service's type is {name}; {name}.{part} is only one half of it.")
-        raise error
+        raise wrong_kind("service", srv_type, "a message or action")
+
+
+def wrong_kind(what: str, given: Any, others: str) -> RuntimeError:
+    """The error for an interface of another kind, with a note if it is a part of one of the right kind, such as its request."""
+    error = RuntimeError(f"The {what} type provided is not valid ({given}), this might be {others}")
+    name = getattr(given, "__name__", "")
+    if (whole := without_part(name)) != name:
+        error.add_note(f"The {what}'s type is {whole}; {name.replace('_', '.')} is only a part of it.")
+    return error

@@ -18,7 +18,7 @@ from turtle_lesson.ros.runtime.world import current_process
 from .._entity import WAITABLE, Entity
 from .._hints import is_raised_by_the_call, no_node
 from ..exceptions import NameValidationException
-from ..type_support import check_for_type_support
+from ..type_support import check_for_type_support, wrong_kind
 
 if TYPE_CHECKING:
     from ..callback_groups import CallbackGroup
@@ -52,13 +52,7 @@ def check_action(role: str, node: Any, action_type: Any) -> None:
         )
         raise
     if not hasattr(action_type, "Impl"):
-        problem = RuntimeError(
-            f"The action type provided is not valid ({action_type}), this might be a message or service"
-        )
-        name, _, part = getattr(action_type, "__name__", "").rpartition("_")
-        if part in {"Goal", "Result", "Feedback"}:
-            problem.add_note(f"The action's type is {name}; {name}.{part} is only a part of it.")
-        raise problem
+        raise wrong_kind("action", action_type, "a message or service")
 
 
 def full_names(role: str, node: Node, action_name: Any) -> dict[str, str]:
@@ -103,18 +97,13 @@ class ActionEndpoint(Entity):
         self._action_name = action_name
         names = full_names(role, node, action_name)
         self._name = names[""]
-        try:
-            for (kind, (_, type_name)), profile in zip(PARTS.items(), profiles, strict=True):
-                part, queue = self._make_part(kind, getattr(action_type.Impl, type_name), names[kind], profile)
-                self._parts[kind] = part
-                _take_from_node(node, part)
-                if queue is not None:
-                    self._arrived[kind] = queue
-                    queue.wake = self._arrive
-        except Exception:
-            for made in self._parts.values():
-                made.destroy()
-            raise
+        for (kind, (_, type_name)), profile in zip(PARTS.items(), profiles, strict=True):
+            part, queue = self._make_part(kind, getattr(action_type.Impl, type_name), names[kind], profile)
+            self._parts[kind] = part
+            _take_from_node(node, part)
+            if queue is not None:
+                self._arrived[kind] = queue
+                queue.wake = self._arrive
         node._ros_keep(self)
 
     def __repr__(self) -> str:

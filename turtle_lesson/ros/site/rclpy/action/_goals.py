@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from action_msgs.msg import GoalStatus
 from action_msgs.srv import CancelGoal
 
-from turtle_lesson.ros.sim.simulation import NANOSECONDS
+from turtle_lesson.ros.sim.simulation import NANOSECONDS, NEVER
 
 from .._hints import shown
 from ..exceptions import RCLError
@@ -65,16 +65,11 @@ def state_after(state: int, event: GoalEvent) -> int:
     following = _NEXT.get((state, event))
     if following is not None:
         return following
-    if state not in ACTIVE:
-        advice = f"This goal has already ended ({NAMES[state]}). End a goal once, and return the result right after."
-    elif event is GoalEvent.EXECUTE:
-        advice = "execute() has already been called for this goal: the default handle_accepted_callback also calls it."
-    elif state == GoalStatus.STATUS_ACCEPTED:
-        advice = "This goal is not being executed yet: call goal_handle.execute(), and end it in the execute callback."
-    else:
+    advice = f"This goal has already ended ({NAMES[state]}). End a goal once, and return the result right after."
+    if state in ACTIVE:
         advice = (
-            "canceled() is for a goal whose cancellation was requested, and accepted by its cancel_callback: check "
-            "goal_handle.is_cancel_requested first. To give up for another reason, call goal_handle.abort()."
+            "execute() begins a goal, once (the default handle_accepted_callback calls it); succeed() and abort() end a "
+            "goal that has begun; canceled() ends one whose goal_handle.is_cancel_requested is true: check that first."
         )
     text = f"goal_handle attempted invalid transition from state {NAMES[state]} with event {event.name}"
     error = RCLError(f"Failed to update goal state: {text}")
@@ -98,6 +93,7 @@ class ServerGoalHandle:
         self._goal_request = goal_request
         self._for_all = GoalStatus(goal_info=goal_info, status=GoalStatus.STATUS_ACCEPTED)  # as the status topic has it
         self._accepted_at = action_server._node._ros_simulation.now
+        self._forgotten_at = NEVER  # ns; known when it has ended
         self._is_executing = False
         self._asked: list[Any] = []  # requests for the result, to be answered when it is known
         self._response: Any = None
@@ -148,7 +144,7 @@ class ServerGoalHandle:
         self._for_all.status = state_after(self._for_all.status, event)
         server._publish_status()
         if self._for_all.status not in ACTIVE:
-            server._goal_ends(self)
+            self._forgotten_at = server._keep_until(self._accepted_at)
 
     def _finish(self, response: Any) -> None:
         """The execute callback has returned: answer all requests for the result, those to come as well."""

@@ -170,8 +170,6 @@ class ActionClient(ActionEndpoint):
         if goal_id is not None:
             if not handle.accepted:
                 self._feedback_callbacks.pop(key_of(goal_id), None)
-            elif key_of(goal_id) in self._goal_handles:
-                raise RuntimeError(f"Two goals were accepted with the same ID ({handle})")
             else:
                 self._goal_handles[key_of(goal_id)] = handle
         self._complete("goal", number, handle)

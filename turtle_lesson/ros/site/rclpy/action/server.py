@@ -11,7 +11,6 @@ import inspect
 from collections.abc import Callable
 from contextlib import suppress
 from enum import Enum
-from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
@@ -110,7 +109,6 @@ class ActionServer(ActionEndpoint):
         self.register_cancel_callback(cancel_callback)
         self.register_execute_callback(execute_callback)
         self._goals: dict[bytes, ServerGoalHandle] = {}
-        self._expiring: list[tuple[int, bytes]] = []  # when (ns) the goals that have ended are forgotten: a heap
         self._result_timeout = round(result_timeout * NANOSECONDS)
         self._records: dict[str, Callback] = {}
         profiles = (
@@ -286,11 +284,10 @@ class ActionServer(ActionEndpoint):
     def _publish_feedback(self, goal_id: Any, feedback: Any) -> None:
         self._parts["feedback"].publish(self._action_type.Impl.FeedbackMessage(goal_id=goal_id, feedback=feedback))
 
-    def _goal_ends(self, handle: ServerGoalHandle) -> None:
-        """A goal has come to its end, and will be forgotten."""
-        now = self._node._ros_simulation.now
-        since = now if current_world().release.has(GOALS_EXPIRE_AFTER_THEIR_END) else handle._accepted_at
-        heappush(self._expiring, (since + self._result_timeout, key_of(handle.goal_id)))
+    def _keep_until(self, accepted_at: int) -> int:
+        """When (ns) a goal that ends now is to be forgotten."""
+        after_its_end = current_world().release.has(GOALS_EXPIRE_AFTER_THEIR_END)
+        return self._result_timeout + (self._node._ros_simulation.now if after_its_end else accepted_at)
 
     def _forget_expired(self) -> None:
         """Forget the goals whose time is over, unless their execute callback still runs.
@@ -298,9 +295,10 @@ class ActionServer(ActionEndpoint):
         The real server does that with a timer (rcl_action's action_server.c). Here it looks whenever something is asked:
         nobody can tell the difference, and nothing keeps a world awake in which nothing happens any more.
         """
-        expiring, now = self._expiring, self._node._ros_simulation.now
-        while expiring and expiring[0][0] < now and not self._goals[expiring[0][1]]._is_executing:
-            self._goals.pop(heappop(expiring)[1]).destroy()
+        now = self._node._ros_simulation.now
+        for key, goal in list(self._goals.items()):
+            if goal._forgotten_at < now and not goal._is_executing:
+                self._goals.pop(key).destroy()
 
     def destroy(self) -> None:
         """Leave the action: goals that go on are not followed any more."""
@@ -308,4 +306,3 @@ class ActionServer(ActionEndpoint):
         for handle in self._goals.values():
             handle.destroy()
         self._goals.clear()
-        self._expiring.clear()
