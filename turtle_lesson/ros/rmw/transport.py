@@ -8,14 +8,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import islice, takewhile
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .network import Conditions
-
-if TYPE_CHECKING:
-    from ..sim.simulation import Simulation
-    from .network import Network
-
+from ..sim.simulation import Simulation
+from .network import Conditions, Network
 
 # -- line ---------------------------------------------------------------------------------------------------------
 # Lines: the way from one publisher to one subscription, wherever it is not the usual one.

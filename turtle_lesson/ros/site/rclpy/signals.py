@@ -8,14 +8,11 @@ from __future__ import annotations
 
 import signal
 from enum import Enum
-from typing import TYPE_CHECKING
 
 from turtle_lesson.ros.runtime.world import current_process
+from turtle_lesson.ros.sim.process import Process
 
 from ._state import RclpyState
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.sim.process import Process
 
 
 class SignalHandlerOptions(Enum):

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import running_strand
 
 from ._blocking import WakeUp, drives_the_simulation
 from ._entity import Assignment
-
-if TYPE_CHECKING:
-    from .node import Node
-    from .qos import QoSProfile
+from .node import Node
+from .qos import QoSProfile
 
 
 @drives_the_simulation

@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from unique_identifier_msgs.msg import UUID
 
@@ -17,14 +17,11 @@ from turtle_lesson.ros.runtime.world import current_process
 
 from .._entity import WAITABLE, Entity
 from .._hints import is_raised_by_the_call, no_node
+from ..callback_groups import CallbackGroup
 from ..exceptions import NameValidationException
+from ..node import Node
+from ..qos import QoSProfile
 from ..type_support import check_for_type_support, wrong_kind
-
-if TYPE_CHECKING:
-    from ..callback_groups import CallbackGroup
-    from ..node import Node
-    from ..qos import QoSProfile
-
 
 PARTS = {
     "goal": ("send_goal", "SendGoalService"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import GenericAlias
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from weakref import WeakValueDictionary
 
 from action_msgs.msg import GoalStatus
@@ -18,13 +18,11 @@ from .._deadlock import Words, why_never_answered, why_nobody_offers
 from .._hints import shown
 from ..callback_groups import CallbackGroup
 from ..client import POLL, Client
+from ..node import Node
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ..task import Future
 from ._endpoints import TOPICS, ActionEndpoint, call_back, new_goal_id
 from ._goals import ACTIVE, key_of
-
-if TYPE_CHECKING:
-    from ..node import Node
 
 ASK = {
     "goal": "action_client.send_goal_async(goal)",

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .._node_graph import NamesAndTypes
-    from ..node import Node
+from .._node_graph import NamesAndTypes
+from ..node import Node
 
 
 def get_action_client_names_and_types_by_node(

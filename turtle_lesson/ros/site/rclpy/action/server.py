@@ -11,7 +11,7 @@ import inspect
 from collections.abc import Callable
 from contextlib import suppress
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from action_msgs.msg import GoalInfo, GoalStatus, GoalStatusArray
 
@@ -24,12 +24,10 @@ from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from .._entity import name_of
 from ..callback_groups import CallbackGroup
 from ..exceptions import RCLError
+from ..node import Node
 from ..qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from ._endpoints import TOPICS, ActionEndpoint, call_back
 from ._goals import GoalEvent, ServerGoalHandle, goals_to_cancel, key_of
-
-if TYPE_CHECKING:
-    from ..node import Node
 
 
 class GoalResponse(Enum):
