@@ -14,10 +14,6 @@ if TYPE_CHECKING:
     from .graph import NodeEntry, Topic
 
 
-# -- end ----------------------------------------------------------------------------------------------------------
-# What publishers and subscriptions have in common: their place in the graph, and what has happened to them.
-
-
 class End:
     """One end of a topic. `tallies` holds what somebody listens to, by kind; the rest is not counted."""
 
@@ -80,7 +76,6 @@ class End:
 
 
 # -- quality ------------------------------------------------------------------------------------------------------
-# Quality of service: what a writer offers, what a reader requests, and whether the two go together.
 # Facts: https://docs.ros.org/en/humble/Concepts/Intermediate/About-Quality-of-Service-Settings.html
 # (compatibilities); of several policies that do not go together, the first in the order of Cyclone DDS
 # (ddsi_qosmatch.c) is named.
@@ -120,7 +115,6 @@ def _shorter(requested: int | None, offered: int | None) -> bool:
 
 
 # -- tally --------------------------------------------------------------------------------------------------------
-# What has happened to one end of a topic, counted until somebody takes note of it.
 # Facts: the status structs of rmw's events_statuses folder. Each `take` answers the fields of one, in their order.
 
 DEADLINE = "deadline"
@@ -155,7 +149,6 @@ class Tally:
 
 
 # -- watchdog -----------------------------------------------------------------------------------------------------
-# Something that has to happen again within a span of time, or else …
 
 FINEST = 1_000_000
 """How often (ns) somebody is told at most: of shorter spans, several at once."""

@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from .service import ClientEnd
 
 
-# -- trace --------------------------------------------------------------------------------------------------------
-# The trace of one world, and what fills it.
-
 MESSAGES = 50_000
 """How many messages of each publisher are kept, the newest: 13 minutes of a turtle's pose."""
 
@@ -95,7 +92,6 @@ class Trace:
 
 
 # -- callbacks ----------------------------------------------------------------------------------------------------
-# When one callback of a node ran: ready, begun, ended.
 
 RUN = [("ready", "=i8"), ("began", "=i8"), ("ended", "=i8")]
 """Times in ns since the world's start: the message, request or tick was there; its callback began; it returned."""
@@ -166,13 +162,9 @@ class Callback:
         return rows[np.argsort(rows["began"], kind="stable")]
 
 
-# -- calls --------------------------------------------------------------------------------------------------------
-# One call of a service, from the question to the answer.
-
-
 @dataclass(eq=False)
 class Call:
-    """Times are in ns since the world's start; None for what has not happened.
+    """One call of a service, from the question to the answer. Times are in ns since the world's start, None before it.
 
     Attributes:
         service, kind: the service's full name, and its type's.

@@ -6,15 +6,15 @@ import zlib
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import islice, takewhile
+from itertools import takewhile
 from random import Random
 from typing import Any
 
 from ..sim.simulation import Simulation
 from .network import Conditions, Network
 
-# -- line ---------------------------------------------------------------------------------------------------------
-# Lines: the way from one publisher to one subscription, wherever it is not the usual one.
+# -- lines --------------------------------------------------------------------------------------------------------
+# The way from one publisher to one subscription, wherever it is not the usual one.
 # The rules, which are those of RTPS (the protocol under DDS; chapters 8.4.8 to 8.4.12) in short:
 # * Best effort: what is lost is lost, and a message that was overtaken by a later one is thrown away. * Reliable: a
 # lost transmission is noticed and repeated two ways and 10 ms later (and may be lost again), as long as the publisher
@@ -25,9 +25,6 @@ from .network import Conditions, Network
 NOTICED_AFTER = 10_000_000
 """How long it takes, in ns and beside two ways, until a lost message is asked for and sent again: the delays that DDS
 implementations have for their answers to heartbeats are 5 to 10 ms."""
-
-ASKED_FOR_AT_ONCE = 256
-"""How many missing messages one answer to a heartbeat can name (RTPS's SequenceNumberSet)."""
 
 USUAL = Conditions()
 Deliver = Callable[[Any, int], object]
@@ -186,8 +183,7 @@ class ReliableLine(Line):
 
     def _repeat(self, _: object) -> None:
         self._asks = False
-        missing = (parcel for parcel in list(self._parcels) if parcel.missing)
-        for parcel in islice(missing, ASKED_FOR_AT_ONCE):
+        for parcel in [each for each in self._parcels if each.missing]:
             self._transmit(parcel)
         self._hand_over()
         if any(parcel.missing for parcel in self._parcels):
@@ -208,7 +204,6 @@ class ReliableLine(Line):
 
 
 # -- latency ------------------------------------------------------------------------------------------------------
-# How long messages and requests are under way in the simulation's usual network.
 
 LATENCY = 100_000
 """How long a message is under way, in ns: what a real rclpy needs from publish to callback is 81 to 107 µs. Each
