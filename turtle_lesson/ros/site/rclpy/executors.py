@@ -20,7 +20,7 @@ from greenlet import GreenletExit
 
 from turtle_lesson.ros.distro import EXECUTOR_AS_CONTEXT, SHUTDOWN_WAITS_FOR_THREADS, TASKS_IN_ORDER
 from turtle_lesson.ros.runtime.world import current_process, current_world
-from turtle_lesson.ros.sim.errors import NeverWakes, print_error
+from turtle_lesson.ros.sim.errors import NeverWakes
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import Strand, running_strand
 from turtle_lesson.ros.stdlib.deadlock import IDLE, look_after, wait_in_vain
@@ -85,6 +85,7 @@ class Executor:
         self._batch: list[Job] = []
         self._resumed: list[Task] = []
         self._delayed = 0  # tasks whose coroutine only let others go first, as with asyncio.sleep(0)
+        self._has_room = True  # another callback may begin now
         self._must_look = True  # there may be more to do than to run the callbacks of what has signalled
         self._blocked: list[Entity] = []
         self._waiter: Strand | None = None  # the strand that a signal wakes: the last that began to wait
@@ -183,7 +184,7 @@ class Executor:
         """The next thing to run, its callback group taken; None at the deadline (ns) or when the condition holds."""
         while True:
             batch = self._batch
-            while batch:
+            while batch and self._has_room:
                 job = batch.pop()
                 if job.__class__ is Task:
                     if not job._done:
@@ -196,11 +197,11 @@ class Executor:
                     self._blocked.append(job)
             if condition is not None and condition():
                 return None
-            if self._signalled or self._resumed:
+            if self._has_room and (self._signalled or self._resumed):
                 self._begin_cycle()
                 continue
             if self._is_shutdown or not self._context.ok():
-                self._raise_shutdown()
+                raise ShutdownException if self._is_shutdown else ExternalShutdownException
             if deadline is not None and self._simulation.now >= deadline:
                 return None
             self._wait(strand, deadline)
@@ -216,9 +217,6 @@ class Executor:
         tasks = self._resumed
         batch += reversed(tasks) if self._tasks_in_order else sorted(tasks, key=attrgetter("_number"))
         tasks.clear()
-
-    def _raise_shutdown(self) -> None:
-        raise ShutdownException if self._is_shutdown else ExternalShutdownException
 
     def _wait(self, strand: Strand, deadline: int | None) -> None:
         simulation = self._simulation
@@ -556,15 +554,6 @@ class MultiThreadedExecutor(Executor):
         return executor_of_worker(strand) is self
 
     def _next(self, strand: Strand, deadline: int | None, condition: Condition) -> Job | None:
-        while not self._idle and self._threads >= self._num_threads and not self._failures:
-            if condition is not None and condition():
-                return None
-            if deadline is not None and self._simulation.now >= deadline:
-                return None
-            if self._is_shutdown or not self._context.ok():
-                self._raise_shutdown()
-            self._wait(strand, deadline)
-
         def interesting() -> bool:
             return bool(self._failures) or (condition is not None and condition())
 
@@ -586,6 +575,7 @@ class MultiThreadedExecutor(Executor):
     def _execute(self, job: Job) -> None:
         thread = self._idle.pop() if self._idle else self._new_thread()
         self._given[thread] = job
+        self._has_room = bool(self._idle) or self._threads < self._num_threads
         self._simulation.wake(thread)
 
     def _new_thread(self) -> Strand:
@@ -616,6 +606,7 @@ class MultiThreadedExecutor(Executor):
             except BaseException as error:  # also sys.exit(): it ends the program where the executor is spun
                 self._failures.append(error)
             self._idle.append(thread)
+            self._has_room = True
             self.wake()
 
     def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
@@ -639,6 +630,3 @@ class MultiThreadedExecutor(Executor):
         finally:
             strand.waits_for = None
             self._end_waiting(strand)
-        for error in self._failures:
-            if isinstance(error, NeverWakes):
-                print_error(error)
