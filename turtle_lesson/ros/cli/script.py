@@ -8,6 +8,7 @@ import os
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from errno import EACCES
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -177,48 +178,39 @@ def expand(word: Word, *, home: Path, exit_code: int) -> list[str]:
     return [word.text]
 
 
-# -- programs that are run by their name ------------------------------------------------------------------------------
-
-NOT_EXECUTABLE = 126
-"""bash's exit code for a file that is there and may not be run."""
-
-
-def with_its_program(words: Sequence[str]) -> list[str]:
-    """`./FILE …` as `python3 ./FILE …` if the first line of this file asks for Python; other words as they are.
-
-    Raises PermissionError if the file may not be run.
-    """
-    if "/" not in words[0] or not Path(words[0]).is_file():
-        return list(words)
-    if not os.access(words[0], os.X_OK):
-        raise PermissionError(f"bash: {words[0]}: Permission denied. Make it executable: chmod +x {words[0]}")
-    with Path(words[0]).open(encoding="utf-8", errors="replace") as file:
-        is_python = re.match(r"#!.*python[\d.]*\s*$", file.readline(200))
-    return ["python3", *words] if is_python else list(words)
-
-
 # -- Python programs -------------------------------------------------------------------------------------------------
-# `python3 FILE.py …`: run a file as a program of this world, as `ros2 run` does with those of packages.
+# `python3 FILE.py …` and `./FILE.py …`: run a file as a program of this world, as `ros2 run` does with those of packages.
 
 _PYTHON = re.compile(r"python(3(\.\d+)?)?")
 
 
-def script_of(words: Sequence[str]) -> Path | None:
-    """The file that a command runs, if it is Python with a file that is there; all else the computer has to do."""
-    if len(words) < 2 or not _PYTHON.fullmatch(words[0]) or len(words[1]) >= 1000:
+def script_of(words: Sequence[str]) -> list[str] | None:
+    """The file and the arguments of a command that runs Python: `python3 FILE …`, or `./FILE …` if its first line says so.
+
+    None for what the computer has to do. Raises PermissionError if the file may not be run.
+    """
+    by_name = not _PYTHON.fullmatch(words[0])
+    argv = list(words if by_name else words[1:])
+    if not argv or not os.path.isfile(argv[0]) or (by_name and "/" not in argv[0]):
         return None
-    return Path(words[1]) if Path(words[1]).is_file() else None
+    if by_name and not os.access(argv[0], os.X_OK):
+        raise PermissionError(EACCES, f"Permission denied. Make it executable: chmod +x {argv[0]}")
+    if by_name:
+        with Path(argv[0]).open(encoding="utf-8", errors="replace") as file:
+            return argv if re.match(r"#!.*python[\d.]*\s*$", file.readline(200)) else None
+    return argv
 
 
 def run_script(
-    world: World, words: Sequence[str], path: Path, stdin: str | None, stdout: Output, stderr: Output
+    world: World, words: Sequence[str], argv: list[str], stdin: str | None, stdout: Output, stderr: Output
 ) -> int:
-    """Start the program at `path`, let it begin, and leave it running; the exit code of one that has ended at once.
+    """Start the file `argv[0]`, let it begin, and leave it running; the exit code of one that has ended at once.
 
     It reads `stdin` as its input, or the keyboard if there is none, and prints into the cell, or into files behind `>`.
     """
     from .group_run_launch import leave, reader_of
 
+    path = Path(argv[0])
     out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
-    process = world.spawn(path, name=path.stem, argv=words[1:], stdin=reader_of(stdin), stdout=out, stderr=error)
+    process = world.spawn(path, name=path.stem, argv=argv, stdin=reader_of(stdin), stdout=out, stderr=error)
     return leave(process, " ".join(words), None)

@@ -25,7 +25,6 @@ from .cells import advice
 from .jobs import Terminal, before_a_command, cell_streams, export, set_for_now
 from .run_command import run as run_ros2
 from .script import (
-    NOT_EXECUTABLE,
     Command,
     ShellSyntaxError,
     Word,
@@ -34,7 +33,6 @@ from .script import (
     run_script,
     script_of,
     tokens,
-    with_its_program,
 )
 from .verb import INTERRUPTED
 
@@ -147,14 +145,8 @@ class Shell:
             return run(self.world, list(words[1:]), stdout=out, stderr=error, cwd=Path.cwd())
         if "/" in name and (program := self.world.packages.program_at(name)):
             return self._call(["ros2", "run", *program, *words[1:]], given, out, error, background)
-        try:
-            if (whole := with_its_program(words)) != list(words):
-                return self._call(whole, given, out, error, background)
-        except PermissionError as mistake:
-            print(mistake, file=error)
-            return NOT_EXECUTABLE
-        if (path := script_of(words)) is not None:
-            return run_script(self.world, words, path, given, out, error)
+        if (argv := script_of(words)) is not None:
+            return run_script(self.world, words, argv, given, out, error)
         if name in terminal.BUILTINS:
             return terminal.BUILTINS[name](Terminal(self.world, out, error, given), list(words[1:]))
         print(_not_found(words), file=error)
