@@ -15,6 +15,8 @@ from ..idl.registry import registry
 from ..rmw.transport import LATENCY, LATENCY_SPREAD
 from ..sim.simulation import NANOSECONDS
 from . import BagError
+from .bag import Bag
+from .scan import BagTopic
 from .writer import profile_of, schema_text, type_hash
 
 if TYPE_CHECKING:
@@ -22,9 +24,6 @@ if TYPE_CHECKING:
     from rclpy.publisher import Publisher
     from rclpy.qos import QoSProfile
     from rosbags.interfaces import Qos
-
-    from .bag import Bag
-    from .scan import BagTopic
 
 NODE = "rosbag2_player"
 

@@ -13,20 +13,18 @@ import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..idl.cdr import serialize
 from ..idl.names import did_you_mean, is_hidden
 from ..idl.registry import registry
+from ..rmw.graph import Topic
+from ..rmw.writer import Writer
+from ..runtime.world import World
+from ..sim.process import Process
 from ..sim.simulation import EPOCH, NANOSECONDS
 from . import BagError, UnrecordableType
 from .writer import BagWriter, profile_of
-
-if TYPE_CHECKING:
-    from ..rmw.graph import Topic
-    from ..rmw.writer import Writer
-    from ..runtime.world import World
-    from ..sim.process import Process
 
 NODE = "rosbag2_recorder"
 """The node of `ros2 bag record`."""

@@ -9,12 +9,10 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 from ..idl.names import did_you_mean
-
-if TYPE_CHECKING:
-    from ..sim.process import Output
+from ..sim.process import Output
 
 # The shape of usage and error texts follows recordings of ros2cli of Humble; help texts are our own words. Options
 # that only this simulation has (`--for`) stand in the help of a verb, but not in its usage line.

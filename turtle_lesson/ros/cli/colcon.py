@@ -6,18 +6,15 @@ import argparse
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 from ..ament.build import DEFAULTS, Builder, Plan
 from ..ament.manifest import Found, build_type_hint, discover, in_order, needed_by
 from ..ament.package import ColconError
 from ..idl.names import did_you_mean
+from ..runtime.world import World
 from ..sim.simulation import NANOSECONDS
 from .arguments import Argument, Parser, Stop, arg, either, flag
-
-if TYPE_CHECKING:
-    from ..runtime.world import World
-
 
 VERBS = (
     "build", "extension-points", "extensions", "graph", "info", "list", "metadata", "test", "test-result",

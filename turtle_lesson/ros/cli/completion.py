@@ -6,23 +6,20 @@ import argparse
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import yaml
 from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMatcherResult, context_matcher
 
 from ..idl.names import is_hidden
 from ..idl.registry import registry
-from ..runtime.world import current_world
+from ..runtime.world import World, current_world
 from .cells import COMMANDS
 from .group_pkg import package_names
 from .run_command import GROUPS
 from .script import Operator, UnfinishedError, Word, tokens
 from .typed_values import interface_names
 from .verb import Verb, absolute
-
-if TYPE_CHECKING:
-    from ..runtime.world import World
 
 
 def complete(world: World, line: str) -> list[str]:

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentTypeError, Namespace
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..bags import BagError
 from ..runtime import files
@@ -19,9 +19,6 @@ from ..runtime.world import current_process
 from ..sim.simulation import EPOCH, NANOSECONDS
 from .arguments import arg, bounded, duration, flag
 from .verb import CommandError, end_of_stretch, now, remark, stretch_of, verb
-
-if TYPE_CHECKING:
-    from ..bags.recorder import Say
 
 # -- arguments ---------------------------------------------------------------------------------------------------------
 # Spellings of Humble and of later releases are understood (`record /a /b` and `record --topics /a /b`). Of the real
@@ -149,7 +146,7 @@ def _play(args: Namespace) -> int:
     return 1 if bag.damage else 0
 
 
-def _logger(name: str) -> Say:
+def _logger(name: str) -> Callable[[str, str], None]:
     """What prints a line as the real tool's logger does."""
     from rclpy.logging import get_logger
 

@@ -10,12 +10,11 @@ from argparse import REMAINDER, ArgumentParser, Namespace
 from collections.abc import Sequence
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from .. import launching
 from ..ament.index import changed_since_built
 from ..ament.package import ExecutableNotFoundError
-from ..launching import LaunchError
+from ..launching import LaunchError, LaunchHandle
 from ..runtime.files import FileOutput
 from ..runtime.world import current_world, run_for
 from ..sim.errors import shown_path
@@ -24,10 +23,6 @@ from .arguments import Argument, arg, cut, duration, either, flag
 from .group_pkg import not_found, path_of
 from .jobs import LastSignal, jobs, lasting
 from .verb import CommandError, verb
-
-if TYPE_CHECKING:
-    from ..launching import LaunchHandle
-
 
 LET_PASS = "let this much robot time pass before {} returns (only here)"
 SIGNAL_TEXTS = {-2: "Interrupt", -9: "Killed", -15: "Terminated"}

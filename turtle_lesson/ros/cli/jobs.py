@@ -11,17 +11,14 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
+from ..launching import LaunchHandle
 from ..runtime.files import BorrowedStream, CellOutput, FileOutput
+from ..runtime.world import World
 from ..sim.process import Output, Process
+from ..sim.simulation import Simulation
 from .arguments import printable
-
-if TYPE_CHECKING:
-    from ..launching import LaunchHandle
-    from ..runtime.world import World
-    from ..sim.simulation import Simulation
-
 
 SIGNALS = {"INT": 2, "TERM": 15, "KILL": 9}
 

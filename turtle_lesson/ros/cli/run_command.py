@@ -15,20 +15,17 @@ from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING, TextIO, cast
+from typing import TextIO, cast
 
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
 from ..launching.commands import UnknownCommand
-from ..runtime.world import Waiter, current_process
+from ..runtime.world import Waiter, World, current_process
+from ..sim.process import Output
 from .arguments import WIDTH, Stop, cut
 from .jobs import Errors, jobs, lasting
 from .script import ShellSyntaxError, expand, pipelines, tokens
 from .verb import INTERRUPTED, VERBS, Invocation, Verb
-
-if TYPE_CHECKING:
-    from ..runtime.world import World
-    from ..sim.process import Output
 
 
 def run(

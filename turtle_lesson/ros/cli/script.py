@@ -10,14 +10,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from errno import EACCES
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from ..runtime.world import World
+from ..sim.process import Output
 from .jobs import lasting, with_values
-
-if TYPE_CHECKING:
-    from ..runtime.world import World
-    from ..sim.process import Output
-
 
 # -- words and signs -------------------------------------------------------------------------------------------------
 # The rules are those of POSIX's shells, without what this simulation leaves out: substitutions, braces and what is
@@ -30,6 +26,7 @@ _PIECE = re.compile(
     |(?P<continued>\\[ \t]*\n)|(?!\\[ \t]*\Z)\\(?P<escaped>.)""",
     re.DOTALL | re.VERBOSE,
 )
+
 """A piece of a word: it ends where quotes begin or end. Blanks behind the backslash at a line's end, which cannot be seen,
 do no harm here."""
 

@@ -14,11 +14,12 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..idl.names import did_you_mean
 from ..runtime import files
 from ..runtime.files import FileOutput
+from ..runtime.world import World
 from . import terminal
 from .arguments import cut
 from .cells import advice
@@ -35,10 +36,6 @@ from .script import (
     tokens,
 )
 from .verb import INTERRUPTED
-
-if TYPE_CHECKING:
-    from ..runtime.world import World
-
 
 NOT_FOUND = 127
 SYNTAX = 2

@@ -8,17 +8,14 @@ import shutil
 from collections.abc import Iterable
 from errno import EINVAL, EISDIR
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..idl.names import did_you_mean
+from ..launching import LaunchHandle
 from ..runtime import files
 from ..runtime.world import run_for
 from ..sim.errors import shown_path
+from ..sim.process import Process
 from .jobs import SIGNALS, Builtin, Terminal, export, jobs, options, printenv, send, unset
-
-if TYPE_CHECKING:
-    from ..launching import LaunchHandle
-    from ..sim.process import Process
 
 # -- folders -----------------------------------------------------------------------------------------------------------
 
