@@ -11,15 +11,15 @@ from collections.abc import Callable, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
+from rclpy._hints import explain_missing, no_node
 from rclpy.clock import ROSClock
 from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 from rclpy.time import Time
 
 if not TYPE_CHECKING:
-    from rclpy._hints import explain_missing
-
     __getattr__ = explain_missing(__name__)
 
 
@@ -44,20 +44,16 @@ class SimpleFilter:
 
 
 class Subscriber(SimpleFilter):
-    """A subscription as a filter: `Subscriber(node, type, topic, qos_profile=10, …)`, as `create_subscription` has it.
+    """A subscription as a filter: `Subscriber(node, type, topic, qos_profile=10, …)`, as `create_subscription` has it."""
 
-    The profile of quality is 10 unless it is given, and it is given by its name: `qos_profile=…`.
-    """
-
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
+    def __init__(
+        self, node: Node, msg_type: Any, topic: str, *, qos_profile: QoSProfile | int = 10, **kwargs: Any
+    ) -> None:
         super().__init__()
-        if len(args) != 3 or not isinstance(args[0], Node):
-            raise TypeError(
-                f"write Subscriber(node, Image, '/camera', qos_profile=10), with the profile by name; got {args!r}"
-            )
-        self.node, _, self.topic = args
-        kwargs.setdefault("qos_profile", 10)
-        self.sub = self.node.create_subscription(*args[1:], self.callback, **kwargs)
+        if not isinstance(node, Node):
+            raise no_node(node)
+        self.node, self.topic = node, topic
+        self.sub = node.create_subscription(msg_type, topic, self.callback, qos_profile, **kwargs)
 
     def callback(self, msg: Any) -> None:
         """Called for each message that comes."""
