@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 import re
 import sys
+from collections.abc import Sequence
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import Any
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from rclpy._deadlock import is_notebook
@@ -41,23 +42,8 @@ SHORTEST = 100_000
 """ns; transforms that came within less time count as if they had taken this long."""
 
 
-class Question(NamedTuple):
-    """What a buffer is asked: frames by the names of their arguments, and ways between two, each with its time (ns)."""
-
-    frames: dict[str, str]
-    ways: tuple[tuple[str, str, int], ...]
-
-    @staticmethod
-    def at_once(target: str, source: str, time: Any) -> Question:
-        """Where is the source frame, seen from the target frame, at a time?"""
-        frames = {} if target == source else {"target": target, "source": source}
-        return Question(frames, ((target, source, nanoseconds(time)),))
-
-    @staticmethod
-    def of_two_times(target: str, target_time: Any, source: str, source_time: Any, fixed: str) -> Question:
-        """The same at a time for each, joined by a frame that does not move in between."""
-        ways = (target, fixed, nanoseconds(target_time)), (fixed, source, nanoseconds(source_time))
-        return Question({"target": target, "source": source, "fixed": fixed}, ways)
+Way = tuple[str, str, int]
+"""A target frame, a source frame, and the time (ns) of the transform between them."""
 
 
 class BufferCore:
@@ -106,29 +92,30 @@ class BufferCore:
 
         Raises LookupException, ConnectivityException, ExtrapolationException, InvalidArgumentException.
         """
-        return self._look_up(Question.at_once(target_frame, source_frame, time))
+        return self._look_up((target_frame, source_frame, nanoseconds(time)))
 
-    def _look_up(self, question: Question) -> TransformStamped:
-        for name, frame in question.frames.items():
+    def _look_up(self, *ways: Way) -> TransformStamped:
+        """The transform along one way, or along two that are joined by a frame that does not move in between."""
+        for name, frame in _arguments(ways):
             check_frame(self._frames, frame, f"lookupTransform argument {name}_frame")
-        ways = [transform_between(self._frames, *way) for way in reversed(question.ways)]
-        turn, place = reduce(combined, [transform for transform, _ in reversed(ways)])
+        found = [transform_between(self._frames, *way) for way in reversed(ways)]
+        turn, place = reduce(combined, [transform for transform, _ in reversed(found)])
         x, y, z, w = canonical(turn)
-        message = TransformStamped(child_frame_id=question.ways[-1][1])
-        message.header.frame_id = question.ways[0][0]
-        message.header.stamp = Time(nanoseconds=ways[-1][1]).to_msg()
+        message = TransformStamped(child_frame_id=ways[-1][1])
+        message.header.frame_id = ways[0][0]
+        message.header.stamp = Time(nanoseconds=found[-1][1]).to_msg()
         translation = Vector3(x=place[0], y=place[1], z=place[2])
         message.transform = Transform(translation=translation, rotation=Quaternion(x=x, y=y, z=z, w=w))
         return message
 
-    def _can(self, question: Question) -> tuple[bool, str]:
+    def _can(self, *ways: Way) -> tuple[bool, str]:
         """Whether it can be looked up, and if not, why."""
-        for name, frame in question.frames.items():
+        for name, frame in _arguments(ways):
             wrong = wrong_name(frame) or ("" if frame in self._frames else "frame does not exist")
             if wrong:
                 return False, f'Invalid frame ID "{frame}" passed to canTransform argument {name}_frame - {wrong}'
         try:
-            for way in question.ways:
+            for way in ways:
                 transform_between(self._frames, *way)
         except TransformException as error:
             return False, str(error)
@@ -174,6 +161,13 @@ class BufferCore:
     def _getFrameStrings(self) -> list[str]:
         """The names of all frames, in the order in which they were heard of."""
         return list(self._frames)
+
+
+def _arguments(ways: Sequence[Way]) -> list[tuple[str, str]]:
+    """The frames of a question, with the names of tf2's arguments for them."""
+    (target, fixed, _), (_, source, _) = ways[0], ways[-1]
+    ends = [] if len(ways) == 1 and target == source else [("target", target), ("source", source)]
+    return ends if len(ways) == 1 else [*ends, ("fixed", fixed)]
 
 
 def nanoseconds(value: Any, what: str = "time") -> int:

@@ -16,7 +16,7 @@ from rclpy.task import Future
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
 from tf2_py import BufferCore
-from tf2_py._buffer_core import Question
+from tf2_py._buffer_core import Way, nanoseconds
 
 from .buffer_interface import TransformRegistration
 
@@ -77,9 +77,9 @@ class Buffer(BufferCore):
 
         Raises LookupException, ConnectivityException, ExtrapolationException, InvalidArgumentException.
         """
-        question = Question.at_once(target_frame, source_frame, time)
-        self._wait(question, timeout)
-        return self._look_up(question)
+        way = (target_frame, source_frame, nanoseconds(time))
+        self._wait(timeout, way)
+        return self._look_up(way)
 
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
         """The same, awaited until it is there."""
@@ -99,9 +99,10 @@ class Buffer(BufferCore):
 
         `fixed_frame` is one that does not move between the two, such as "world". Raises as `lookup_transform`.
         """
-        question = Question.of_two_times(target_frame, target_time, source_frame, source_time, fixed_frame)
-        self._wait(question, timeout)
-        return self._look_up(question)
+        there = (target_frame, fixed_frame, nanoseconds(target_time))
+        here = (fixed_frame, source_frame, nanoseconds(source_time))
+        self._wait(timeout, there, here)
+        return self._look_up(there, here)
 
     def can_transform(
         self,
@@ -112,36 +113,36 @@ class Buffer(BufferCore):
         return_debug_tuple: bool = False,
     ) -> Any:
         """Whether there is such a transform; with `return_debug_tuple` also why not."""
-        found = self._wait(Question.at_once(target_frame, source_frame, time), timeout)
+        found = self._wait(timeout, (target_frame, source_frame, nanoseconds(time)))
         return found if return_debug_tuple else found[0]
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
         """A future whose result is the transform, as soon as it can be looked up."""
-        question = Question.at_once(target_frame, source_frame, time)
+        way = (target_frame, source_frame, nanoseconds(time))
         future = Future()
 
         def try_again() -> None:
-            if not _is_over(future) and self._can(question)[0]:
-                future.set_result(self._look_up(question))
+            if not _is_over(future) and self._can(way)[0]:
+                future.set_result(self._look_up(way))
 
         try_again()
         if not _is_over(future):
             self._waiting.append((future, try_again))
         return future
 
-    def _wait(self, question: Question, timeout: Duration) -> tuple[bool, str]:
+    def _wait(self, timeout: Duration, *ways: Way) -> tuple[bool, str]:
         """Wait until what is asked can be looked up, or the timeout is over: whether it can, and if not, why."""
         if not isinstance(timeout, Duration):
             raise TypeError(f"timeout must be a rclpy.duration.Duration, got {timeout!r}: write Duration(seconds=1.0)")
-        return self._look_again(question, timeout) if timeout.nanoseconds > 0 else self._can(question)
+        return self._look_again(timeout, *ways) if timeout.nanoseconds > 0 else self._can(*ways)
 
     @drives_the_simulation
-    def _look_again(self, question: Question, timeout: Duration) -> tuple[bool, str]:
+    def _look_again(self, timeout: Duration, *ways: Way) -> tuple[bool, str]:
         clock = Clock()
         end = clock.now() + timeout
-        while clock.now() < end and not self._can(question)[0]:
+        while clock.now() < end and not self._can(*ways)[0]:
             sleep(PAUSE)
-        return self._can(question)
+        return self._can(*ways)
 
 
 def _is_over(future: Future) -> bool:
