@@ -294,7 +294,7 @@ class NodeParameters(NodeEntities):
 
 def _read_declaration(namespace: str, details: tuple[Any, ...]) -> tuple[str, Any, Any]:
     """Full name, default value and descriptor of a declaration: a tuple of name, and perhaps value and descriptor."""
-    from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
+    from rcl_interfaces.msg import ParameterDescriptor
 
     if not 1 <= len(details) <= 3 or not isinstance(details[0], str):
         raise TypeError(f"a parameter is declared by a tuple of its name, value and descriptor, got {details!r}")
@@ -316,9 +316,8 @@ def _read_declaration(namespace: str, details: tuple[Any, ...]) -> tuple[str, An
         descriptor.type = value.value
         return name, None, descriptor
     if not descriptor.dynamic_typing:
-        is_unset = isinstance(value, ParameterValue) and value.type == Parameter.Type.NOT_SET.value
-        descriptor.type = Parameter.Type.from_parameter_value(None if is_unset else value).value
-        if value is None or is_unset:
+        descriptor.type = Parameter.Type.from_parameter_value(value).value
+        if value is None:
             raise ValueError("Cannot declare a statically typed parameter with default value of type PARAMETER_NOT_SET")
     return name, value, descriptor
 

@@ -16,6 +16,7 @@ from typing import Any, ClassVar
 from turtle_lesson.ros.rmw.names import Remap, node_name_flaw
 
 from .exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
+from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
 from .parameter import Parameter
 
@@ -35,7 +36,6 @@ FLAGS = {
 """What must follow each flag. Nothing comes of enclaves, which are all /, and of log files, as none are written."""
 
 SWITCH = re.compile(r"--(enable|disable)-(rosout|stdout|external-lib)-logs")
-LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
 
 TOKEN = r"(?:_(?!_)|(?=[A-Za-z]))(?:[A-Za-z0-9]++_?+)*+"
 NODE = rf"(?:(?P<node>(?!ros(?:service|topic)://){TOKEN}):(?!=))?"
@@ -60,7 +60,7 @@ class Arguments:
 
     remaps: list[Remap] = field(default_factory=list)
     parameters: list[Entry] = field(default_factory=list)
-    log_levels: dict[str, str] = field(default_factory=dict)
+    log_levels: dict[str, LoggingSeverity] = field(default_factory=dict)
     """By logger; '' is the default."""
     switches: dict[str, bool] = field(default_factory=dict)
     """Whether logs go to `rosout`, `stdout` and `external-lib`, as far as that is said."""
@@ -141,10 +141,9 @@ def _take(flag: str, value: str, found: Arguments) -> None:
             found.parameters.extend(read_parameter_file(value))
         elif flag == "--log-level":
             logger, separator, level = value.rpartition(":=")
-            if level.upper() not in LEVELS or (separator and not logger):
-                known = ", ".join(LEVELS[1:])
-                raise YamlValueError(f"Argument does not use a valid severity level; levels are {known}")
-            found.log_levels[logger] = level
+            if level.upper() not in LoggingSeverity.__members__ or (separator and not logger):
+                raise YamlValueError("Argument does not use a valid severity level, such as DEBUG, INFO, WARN or ERROR")
+            found.log_levels[logger] = LoggingSeverity[level.upper()]
     except YamlValueError as error:
         raise RCLInvalidROSArgsError(f"Couldn't parse {FLAGS[flag]}: '{flag} {value}'. Error: {error}") from None
 

@@ -15,7 +15,6 @@ from ._entity import Handle
 from ._ros_args import Arguments, parse_arguments
 from ._state import RclpyState
 from .exceptions import RCLError, RCLInvalidROSArgsError
-from .impl.logging_severity import LoggingSeverity
 from .impl.rcutils_logger import RcutilsLogger
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ class Context:
 
     def _set_up_logging(self) -> None:
         for name, level in self.arguments.log_levels.items():
-            RcutilsLogger(name).set_level(LoggingSeverity[level.upper()])
+            RcutilsLogger(name).set_level(level)
         own = self._state
         own.log_to = self.arguments.switches
         own.log_format = os.environ.get("RCUTILS_CONSOLE_OUTPUT_FORMAT")

@@ -135,12 +135,11 @@ DEEPEST = 1000
 
 def frames_as_string(frames: Frames) -> str:
     """A sentence for each frame that has a parent, or had one."""
-    lines = (
+    return "".join(
         f"Frame {name} exists with parent {cache.kept[-1].parent if cache.kept else 'NO_PARENT'}.\n"
         for name, cache in frames.items()
         if cache is not None
     )
-    return "".join(lines)
 
 
 def _unconnected(target: str, source: str) -> ConnectivityException:

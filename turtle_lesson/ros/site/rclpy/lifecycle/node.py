@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from traceback import extract_tb
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from turtle_lesson.ros.distro import FORBIDDEN_TRANSITIONS_ARE_LOGGED
 from turtle_lesson.ros.runtime.world import current_world
@@ -115,9 +115,8 @@ class LifecycleNodeMixin(ManagedEntity):
     order in which they were added; `super().on_configure(state)` does that as well.
     """
 
-    if TYPE_CHECKING:
-        default_callback_group: CallbackGroup
-        get_logger: Any
+    default_callback_group: CallbackGroup
+    get_logger: Any
 
     def __init__(
         self, *, enable_communication_interface: bool = True, callback_group: CallbackGroup | None = None
