@@ -470,7 +470,7 @@ def test_values_in_a_file_are_for_the_nodes_that_its_names_match(
         ("x\n", "Cannot have a value before ros__parameters at line 1: a file maps the names of nodes"),
         (
             "n1:\n  ros__parameters:\n    gains: [1, 2.5]\n",
-            "Sequence should be of same type. Value type 'double' do not belong at line_num 3; write 1.0",
+            "Sequence should be of same type. Value type 'double' do not belong at line 3; write 1.0",
         ),
         ("n1:\n  ros__parameters:\n    empty:\n", "No value at line 3; an empty text is written"),
         (None, "Error opening YAML file"),

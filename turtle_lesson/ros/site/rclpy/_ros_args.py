@@ -51,7 +51,11 @@ PARAMETER = re.compile(rf"{NODE}(?P<name>{PART}(?:\.{PART})*):=(?P<value>.+)", r
 
 
 class YamlValueError(ValueError):
-    """A YAML text is no parameter value; the text is ROS's, with advice."""
+    """A YAML text is no parameter value; the text is ROS's, with the line of a node of YAML's tree, and advice."""
+
+    def __init__(self, problem: str, node: Any = None, advice: str = "") -> None:
+        where = "" if node is None else f" at line {node.start_mark.line + 1}"
+        super().__init__(f"{problem}{where}{advice}")
 
 
 @dataclass
@@ -201,12 +205,12 @@ def _nodes(found: Any, names: list[str]) -> Iterator[Entry]:
                 yield from _nodes(value, [*names, name])
             continue
         if not names:
-            raise YamlValueError(f"There are no node names before {KEY} at line {line_of(key)}")
+            raise YamlValueError(f"There are no node names before {KEY}", key)
         node = "/".join(names)
         for part in node.removeprefix("/").split("/"):
             flaw = None if part in ("*", "**") else node_name_flaw(part)
             if flaw is not None:
-                raise YamlValueError(f"{flaw.reason} (it is '{node}', before line {line_of(key)})")
+                raise YamlValueError(f"{flaw.reason} (it is '{node}')", key)
         yield from ((node, parameter, value) for parameter, value in _parameters(value, ""))
 
 
@@ -222,13 +226,11 @@ def _parameters(found: Any, prefix: str) -> Iterator[tuple[str, Any]]:
 def _pairs(found: Any) -> Iterator[tuple[Any, str, Any]]:
     """What a mapping maps, as keys with their texts and values. Raises YamlValueError for anything but a mapping of names."""
     if found.id != "mapping":
-        raise YamlValueError(
-            f"Cannot have a value before {KEY} at line {line_of(found)}: a file maps the names of nodes to `{KEY}:`, and "
-            "that to the names of parameters"
-        )
+        advice = f": a file maps the names of nodes to `{KEY}:`, and that to the names of parameters"
+        raise YamlValueError(f"Cannot have a value before {KEY}", found, advice)
     for key, value in found.value:
         if key.id != "scalar" or not key.value:
-            raise YamlValueError(f"A list, a mapping or nothing cannot be a name at line {line_of(key)}")
+            raise YamlValueError("A list, a mapping or nothing cannot be a name", key)
         yield key, key.value, value
 
 
@@ -257,25 +259,15 @@ def value_of(node: Any) -> Any:
     values = []
     for item in items:
         if item.id != "scalar":
-            line = line_of(item)
-            raise YamlValueError(
-                f"Unknown YAML event at line {line}: a value, or a list of plain values, is expected here"
-            )
+            raise YamlValueError("Unknown YAML event", item, ": a value, or a list of plain values, is expected here")
         is_text = item.style in ("'", '"') or item.tag == TEXT
         if not item.value and not is_text:
-            raise YamlValueError(f'No value at line {line_of(item)}; an empty text is written ""')
+            raise YamlValueError("No value", item, '; an empty text is written ""')
         values.append(item.value if is_text else scalar(item.value))
         if type(values[-1]) is not type(values[0]):
-            raise YamlValueError(
-                f"Sequence should be of same type. Value type '{NAMES[type(values[-1])]}' do not belong at line_num "
-                f"{line_of(item)}; write 1.0 for a whole number among others"
-            )
+            problem = f"Sequence should be of same type. Value type '{NAMES[type(values[-1])]}' do not belong"
+            raise YamlValueError(problem, item, "; write 1.0 for a whole number among others")
     return values[0] if node.id == "scalar" else values or None
-
-
-def line_of(node: Any) -> int:
-    """The line of a node of YAML's tree, counted from 1."""
-    return node.start_mark.line + 1
 
 
 @cache
@@ -288,7 +280,7 @@ def _loader() -> Any:
         DEFAULT_SCALAR_TAG = "unmarked"
 
         def _count_alias(self, event: Any) -> None:
-            raise YamlValueError(f"Will not support aliasing at line {line_of(event)}: write the value once more")
+            raise YamlValueError("Will not support aliasing", event, ": write the value once more")
 
     return Loader
 
