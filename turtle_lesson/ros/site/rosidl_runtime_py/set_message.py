@@ -50,7 +50,7 @@ class _Filling:
 
     def fill(self, message: Any, values: Any) -> None:
         if not hasattr(values, "items"):
-            text = f"Value '{_short(values)}' is expected to be a dictionary but is a {type(values).__name__}"
+            text = f"Value '{values!s:.200}' is expected to be a dictionary but is a {type(values).__name__}"
             raise TypeError(text)
         types = get_message_slot_types(message)
         for name, value in values.items():
@@ -108,14 +108,9 @@ class _Filling:
 
 
 def _no_such_field(message: Any, name: str, known: list[str]) -> AttributeError:
-    error = AttributeError(f"'{type(message).__name__}' object has no attribute '{_short(name)}'")
+    error = AttributeError(f"'{type(message).__name__}' object has no attribute '{name:.200}'")
     hint = did_you_mean(name[:100], known) or f"The fields are: {', '.join(known) or 'none'}."
     if ":" in name and name.partition(":")[0] in known:
         hint = f"YAML wants a space after the colon: {name.replace(':', ': ', 1)}"
     error.add_note(hint)
     return error
-
-
-def _short(value: Any) -> str:
-    text = str(value)
-    return text if len(text) <= 200 else f"{text[:200]}..."
