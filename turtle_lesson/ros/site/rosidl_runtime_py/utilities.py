@@ -7,7 +7,6 @@ AttributeError where there is no such interface, ValueError where it is one of a
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 from rosidl_parser.definition import NamespacedType
@@ -22,21 +21,21 @@ def get_interface(identifier: str) -> Any:
 
 def get_message(identifier: str) -> Any:
     """The class of a message: `geometry_msgs/msg/Twist`, or `geometry_msgs/Twist`."""
-    return _checked(identifier, get_message_namespaced_type(identifier), is_message, "a message")
+    return _checked(identifier, "msg", is_message, "a message")
 
 
 def get_service(identifier: str) -> Any:
     """The class of a service: `std_srvs/srv/Empty`, or `std_srvs/Empty`."""
-    return _checked(identifier, get_service_namespaced_type(identifier), is_service, "a service")
+    return _checked(identifier, "srv", is_service, "a service")
 
 
 def get_action(identifier: str) -> Any:
     """The class of an action: `turtlesim/action/RotateAbsolute`, or `turtlesim/RotateAbsolute`."""
-    return _checked(identifier, get_action_namespaced_type(identifier), is_action, "an action")
+    return _checked(identifier, "action", is_action, "an action")
 
 
-def _checked(identifier: str, type_: NamespacedType, fits: Callable[[Any], bool], what: str) -> Any:
-    interface = import_message_from_namespaced_type(type_)
+def _checked(identifier: str, folder: str, fits: Callable[[Any], bool], what: str) -> Any:
+    interface = import_message_from_namespaced_type(get_namespaced_type(identifier, folder))
     if not fits(interface):
         raise ValueError(f"Expected the full name of {what}, got '{identifier}'")
     return interface
@@ -50,11 +49,6 @@ def get_namespaced_type(identifier: str, folder: str | None = None) -> Namespace
     if not namespaces or not namespaces[0]:
         raise ValueError(f"Empty module name: '{identifier}' is not a name such as geometry_msgs/msg/Twist")
     return NamespacedType(namespaces, name)
-
-
-get_message_namespaced_type = partial(get_namespaced_type, folder="msg")
-get_service_namespaced_type = partial(get_namespaced_type, folder="srv")
-get_action_namespaced_type = partial(get_namespaced_type, folder="action")
 
 
 def is_message(interface: Any) -> bool:
