@@ -176,9 +176,9 @@ def nanoseconds(value: Any, what: str = "time") -> int:
         return value.sec * 1_000_000_000 + value.nanosec
     if hasattr(value, "nanoseconds"):
         return value.nanoseconds
-    kind = "Time" if what == "time" else "Duration"
-    hint = f"got {value!r}; write rclpy.{kind.lower()}.{kind}(seconds=…)"
-    raise TypeError(f"{what} must have sec and nanosec, or nanoseconds: {hint}")
+    raise TypeError(
+        f"a {what} of rclpy's, or as a message, is expected, got {value!r}: write {what.title()}(seconds=…)"
+    )
 
 
 def check_frame(frames: Frames, frame: Any, argument: str) -> str:
@@ -188,12 +188,8 @@ def check_frame(frames: Frames, frame: Any, argument: str) -> str:
         raise InvalidArgumentException(f'Invalid argument "{frame}" passed to {argument} - {wrong}')
     if frame not in frames:
         error = LookupException(f'"{frame}" passed to {argument} does not exist. ')
-        error.add_note(
-            f"Frames received so far: {', '.join(frames)}."
-            if frames
-            else "No transform has been received yet: is a broadcaster running, and is the node with the TransformListener "
-            "spinning?"
-        )
+        missing = "none; is a broadcaster running, and is the node with the TransformListener spinning?"
+        error.add_note(f"Frames received so far: {', '.join(frames) or missing}")
         raise error
     return frame
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from geometry_msgs.msg import TransformStamped
-from rclpy._hints import no_node
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
@@ -26,8 +25,6 @@ class StaticTransformBroadcaster:
     def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
         if qos is None:
             qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
-        if not hasattr(node, "create_publisher"):
-            raise no_node(node)
         self.pub_tf = node.create_publisher(TFMessage, "/tf_static", qos)
         self.net_message = TFMessage()
         self._logger = node.get_logger()

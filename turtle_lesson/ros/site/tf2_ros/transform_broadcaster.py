@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from geometry_msgs.msg import TransformStamped
-from rclpy._hints import no_node
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
@@ -15,8 +14,6 @@ class TransformBroadcaster:
     """Publishes the transforms of frames that move. `qos`: quality of service, or how many messages to keep."""
 
     def __init__(self, node: Node, qos: QoSProfile | int = 100) -> None:
-        if not hasattr(node, "create_publisher"):
-            raise no_node(node)
         self.pub_tf = node.create_publisher(TFMessage, "/tf", qos)
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from contextlib import suppress
 from threading import Thread
 
-from rclpy._hints import no_node
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -38,8 +37,6 @@ class TransformListener:
     ) -> None:
         if not hasattr(buffer, "set_transform"):
             raise TypeError(f"TransformListener(buffer, node) fills a Buffer, got {buffer!r} as the buffer")
-        if node is not None and not hasattr(node, "create_subscription"):
-            raise no_node(node)
         self.buffer = buffer
         self.node = node or Node(
             "transform_listener_impl",
