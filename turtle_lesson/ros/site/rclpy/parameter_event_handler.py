@@ -49,7 +49,7 @@ class ParameterEventHandler:
 
         self.node = node
         self.qos_profile = qos_profile
-        self._parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
+        self._parameter_callbacks: list[ParameterCallbackHandle] = []
         self._event_callbacks: list[ParameterEventCallbackHandle] = []
         self.parameter_event_subscription = node.create_subscription(
             ParameterEvent,
@@ -63,11 +63,10 @@ class ParameterEventHandler:
         )
 
     def _on_event(self, event: Any) -> None:
-        for (parameter_name, node_name), handles in list(self._parameter_callbacks.items()):
-            parameter = self.get_parameter_from_event(event, parameter_name, node_name)
+        for handle in list(self._parameter_callbacks):
+            parameter = self.get_parameter_from_event(event, handle.parameter_name, handle.node_name)
             if parameter is not None:
-                for handle in list(handles):
-                    handle.callback(parameter)
+                handle.callback(parameter)
         for each in list(self._event_callbacks):
             each.callback(event)
 
@@ -101,15 +100,14 @@ class ParameterEventHandler:
         elif not node_name.startswith("/"):
             node_name = f"{self.node.get_namespace().rstrip('/')}/{node_name}"
         handle = ParameterCallbackHandle(parameter_name, node_name, callback)
-        self._parameter_callbacks.setdefault((parameter_name, node_name), []).insert(0, handle)
+        self._parameter_callbacks.insert(0, handle)
         return handle
 
     def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
         """No longer call a callback. Raises RuntimeError if it is not (or no longer) called."""
-        handles = self._parameter_callbacks.get((handle.parameter_name, handle.node_name), [])
-        if handle not in handles:
+        if handle not in self._parameter_callbacks:
             raise RuntimeError(GONE)
-        handles.remove(handle)
+        self._parameter_callbacks.remove(handle)
 
     def add_parameter_event_callback(self, callback: Callable[[Any], Any]) -> ParameterEventCallbackHandle:
         """Have `callback(event)` called for each rcl_interfaces/msg/ParameterEvent."""
