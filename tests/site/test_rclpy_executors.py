@@ -437,7 +437,7 @@ def test_only_nodes_can_be_spun(world: World) -> None:
     rclpy.init()
     for value, hint in (
         (Navigator, "got the class Navigator; make an instance first: node = Navigator()"),
-        (Forgetful(), "begin its __init__ with super().__init__('the_name_of_the_node')"),
+        (Forgetful(), "begin its __init__ with super().__init__('its_name')"),
         (None, "got None; after rclpy.init(), make one: node = rclpy.create_node('its_name')"),
     ):
         with pytest.raises(TypeError) as caught:

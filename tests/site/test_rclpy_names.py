@@ -127,9 +127,7 @@ def test_a_node_class_that_forgets_to_call_its_base_class_is_told_so(node: Node)
             self.publisher = self.create_publisher(String, "chatter", 10)
 
     text = message_of(AttributeError, Forgetful)
-    assert text == (
-        "this Forgetful is not a node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
-    )
+    assert text == ("this Forgetful is not a node yet: begin its __init__ with super().__init__('its_name')")
 
 
 def test_a_subclass_may_call_its_own_things_whatever_it_likes(node: Node) -> None:
@@ -313,7 +311,7 @@ def test_a_callback_where_the_queue_length_belongs_brings_the_order_to_mind(node
     with pytest.raises(TypeError, match="received <class 'function'>") as caught:
         node.create_subscription(String, "x", 10, callback)
     assert caught.value.__notes__ == [
-        "The order is create_subscription(type, topic, callback, qos) and create_publisher(type, topic, qos)."
+        "The order is create_subscription(type, topic, callback, qos), create_publisher(type, topic, qos)."
     ]
 
 

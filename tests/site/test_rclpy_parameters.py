@@ -241,7 +241,7 @@ def test_setting_an_undeclared_parameter_names_it(node: Node) -> None:
     text = message_of(ParameterNotDeclaredException, lambda: node.set_parameters(wishes))
     assert text == "('Invalid access to undeclared parameter(s)', ['nope'])"  # the real one says [], for lack of care
     assert node.get_parameter("speed").value == 0.7  # those before it were set
-    with pytest.raises(TypeError, match=r"try Parameter\('speed', value=0.5\)"):
+    with pytest.raises(TypeError, match=r"a list of Parameter\('name', value=…\)"):
         node.set_parameters([("speed", 0.5)])
 
 

@@ -29,7 +29,7 @@ class _SetByInit:
 
     def __get__(self, owner: object, kind: type) -> Any:
         raise AttributeError(
-            f"this {kind.__name__} is not a node yet: begin its __init__ with super().__init__('the_name_of_the_node')"
+            f"this {kind.__name__} is not a node yet: begin its __init__ with super().__init__('its_name')"
         )
 
 
@@ -44,7 +44,7 @@ def no_node(value: object) -> TypeError:
     if isinstance(value, type):
         hint = f"make an instance first: node = {value.__name__}()"
     elif hasattr(value, "create_publisher"):
-        hint = "begin its __init__ with super().__init__('the_name_of_the_node')"
+        hint = "begin its __init__ with super().__init__('its_name')"
     else:
         hint = "after rclpy.init(), make one: node = rclpy.create_node('its_name')"
     return TypeError(f"a node is expected, got {shown(value)}; {hint}")
@@ -56,9 +56,7 @@ def no_message(value: object, kind: Any) -> TypeError:
     if value is kind:
         error.add_note(f"This is the class itself; {name}() makes a message.")
     elif type(value).__name__ == name and type(value).__module__ == kind.__module__:
-        error.add_note(
-            f"This {name} was made before {name} was built again: import it again, and make the message again."
-        )
+        error.add_note(f"This {name} was made before {name} was built again: import it again, and make it again.")
     elif not hasattr(value, "get_fields_and_field_types"):
         fields = list(kind.get_fields_and_field_types())
         example = f"{name}({fields[0]}=…)" if fields else f"{name}()"

@@ -68,10 +68,7 @@ class NodeParameters(NodeEntities):
                 return SetParametersResult(reason=reason + "modifying the original parameters list.")
         for parameter in parameter_list:
             if not isinstance(parameter, Parameter):
-                raise TypeError(
-                    f"a list of rclpy.parameter.Parameter is expected, got {parameter!r} in it: "
-                    "try Parameter('speed', value=0.5)"
-                )
+                raise TypeError(f"a list of Parameter('name', value=…) of rclpy is expected, got {parameter!r} in it")
         undeclared = [each.name for each in parameter_list if each.name not in self._ros_parameters]
         if undeclared and not self._ros_allow_undeclared:
             raise self._ros_not_declared(undeclared[0], undeclared)
@@ -90,10 +87,8 @@ class NodeParameters(NodeEntities):
         for callback in self._ros_on_set:
             result = callback(parameters)
             if not hasattr(result, "successful"):
-                raise AttributeError(
-                    f"a parameter callback returned {result!r}, which has no attribute 'successful': end it with "
-                    "`return SetParametersResult(successful=True)`"
-                )
+                advice = "end it with `return SetParametersResult(successful=True)`"
+                raise AttributeError(f"a parameter callback returned {result!r}: no attribute 'successful'; {advice}")
             if not result.successful:
                 return result.reason or "refused by a callback of the node, which gave no reason"
         self._ros_store(parameters, descriptors)

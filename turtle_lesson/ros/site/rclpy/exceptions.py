@@ -136,24 +136,18 @@ class ParameterUninitializedException(ParameterException):
 def refuse_destroyed(simulation: Simulation) -> NoReturn:
     """Raise InvalidHandle for the use of something destroyed, or WorldClosed if its world was closed."""
     if simulation.closed:
-        raise WorldClosed(
-            "this belongs to a world that a later start() has closed: make the node, and what belongs to it, again"
-        )
+        raise WorldClosed("this belongs to a world that a later start() has closed: make its node, and it, again")
     error = InvalidHandle("cannot use Destroyable because destruction was requested")
-    error.add_note(
-        "It, or its node, was destroyed, perhaps by rclpy.shutdown(). Make the node and this again, after rclpy.init(); "
-        "in a notebook, run the cells that do this again."
-    )
+    cause = "It, or its node, was destroyed, perhaps by rclpy.shutdown()"
+    error.add_note(f"{cause}: after rclpy.init(), make the node and this again; in a notebook, run their cells again.")
     raise error
 
 
 def refuse_ended(doing: str) -> NoReturn:
     """Raise RCLError for `doing` something with the graph after rclpy.shutdown()."""
     error = RCLError(f"{doing} context is invalid")
-    error.add_note(
-        "rclpy.shutdown(), or Ctrl-C, has ended ROS in this program. Do this before that; or call rclpy.init() again, and "
-        "make the node and what belongs to it again."
-    )
+    cause = "rclpy.shutdown(), or Ctrl-C, has ended ROS in this program"
+    error.add_note(f"{cause}. Do this before that; or call rclpy.init() again, and make the node again.")
     raise error
 
 

@@ -227,7 +227,7 @@ def checked_profile(profile: Any) -> QoSProfile:
     error = TypeError(f"Expected QoSProfile or int, but received {type(profile)}")
     if callable(profile):
         error.add_note(
-            "The order is create_subscription(type, topic, callback, qos) and create_publisher(type, topic, qos)."
+            "The order is create_subscription(type, topic, callback, qos), create_publisher(type, topic, qos)."
         )
     raise error
 

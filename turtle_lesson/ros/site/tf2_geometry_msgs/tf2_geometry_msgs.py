@@ -54,9 +54,7 @@ def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     """A pose as seen from the other frame."""
     if not isinstance(pose, Pose):
         kind = type(pose).__name__
-        raise TypeError(
-            f"do_transform_pose() transforms a Pose, got {kind}: use do_transform_pose_stamped() for a PoseStamped"
-        )
+        raise TypeError(f"a Pose is expected, got {kind}: a PoseStamped is transformed by do_transform_pose_stamped()")
     place = turns.add(_turned(pose.position, transform), _vector(transform.transform.translation))
     x, y, z, w = turns.canonical(turns.multiply(_turn(transform.transform.rotation), _turn(pose.orientation)))
     position = Point(x=place[0], y=place[1], z=place[2])

@@ -176,9 +176,7 @@ def nanoseconds(value: Any, what: str = "time") -> int:
         return value.sec * 1_000_000_000 + value.nanosec
     if hasattr(value, "nanoseconds"):
         return value.nanoseconds
-    raise TypeError(
-        f"a {what} of rclpy's, or as a message, is expected, got {value!r}: write {what.title()}(seconds=…)"
-    )
+    raise TypeError(f"a {what} is expected, got {value!r}: write {what.title()}(seconds=…)")
 
 
 def check_frame(frames: Frames, frame: Any, argument: str) -> str:
