@@ -24,19 +24,13 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     return f"; did you mean {close!r}?" if close else ""
 
 
-class _SetByInit:
+class SetByInit:
     """Stands on a class for an attribute that its __init__ sets. Looked up before that, it tells what was forgotten."""
 
     def __get__(self, owner: object, kind: type) -> Any:
         raise AttributeError(
             f"this {kind.__name__} is not a node yet: begin its __init__ with super().__init__('its_name')"
         )
-
-
-def set_by_init(kind: type, *names: str) -> None:
-    """Have the class explain, for these attributes, that its __init__ has not been called."""
-    for name in names:
-        setattr(kind, name, _SetByInit())
 
 
 def no_node(value: object) -> TypeError:

@@ -170,12 +170,10 @@ class NodeGraph:
         Newer than Humble.
         """
         name = f"/{fully_qualified_node_name.lstrip('/')}"
-
-        def is_there() -> bool:
-            return name in self.get_fully_qualified_node_names()
-
+        limit = None if timeout < 0 else timeout
+        what = f"wait_for_node {name}"
         return wait_until(
-            is_there, None if timeout < 0 else timeout, LOOK_AGAIN, self._ros_context, f"wait_for_node {name}"
+            lambda: name in self.get_fully_qualified_node_names(), limit, LOOK_AGAIN, self._ros_context, what
         )
 
     def count_publishers(self, topic_name: str) -> int:

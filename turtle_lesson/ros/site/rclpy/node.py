@@ -13,7 +13,7 @@ from turtle_lesson.ros.sim.errors import shown_path
 from turtle_lesson.ros.sim.simulation import EPOCH, NANOSECONDS
 
 from ._entity import Handle
-from ._hints import find_taken, set_by_init
+from ._hints import SetByInit, find_taken
 from ._node_entities import NodeEntities
 from ._node_graph import NodeGraph
 from ._node_parameters import TOLERANCE, NodeParameters
@@ -257,9 +257,8 @@ class Node(NodeParameters):
         self._ros_graph.remove_node(self._ros_entry)
 
 
-set_by_init(
-    Node, "_ros_clock", "_ros_destroyed", "_ros_entry", "_ros_graph", "_ros_logger", "_ros_overrides", "_ros_parameters"
-)
+for _name in ("clock", "destroyed", "entry", "graph", "logger", "overrides", "parameters"):
+    setattr(Node, f"_ros_{_name}", SetByInit())
 
 for _part in (NodeEntities, NodeGraph, NodeParameters):
     for _name, _method in vars(_part).items():

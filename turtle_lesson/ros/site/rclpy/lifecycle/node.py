@@ -123,9 +123,6 @@ class LifecycleNodeMixin(ManagedEntity):
     ) -> None:
         from lifecycle_msgs.msg import TransitionEvent
 
-        self._callbacks: dict[int, Callable[[LifecycleState], TransitionCallbackReturn]] = {
-            STATES[state].id: getattr(self, name) for state, name in HANDLERS.items()
-        }
         self._managed_entities: list[ManagedEntity] = []
         publisher = Node.create_publisher(self, TransitionEvent, "~/transition_event", 10)  # type: ignore[arg-type]
 
@@ -166,22 +163,27 @@ class LifecycleNodeMixin(ManagedEntity):
         before = LifecycleState(label=machine.current_state.label, state_id=machine.current_state.id)
         machine.trigger(wanted)
         outcome = self._ros_call(before)
-        machine.trigger(_label_of(outcome, machine))
         if outcome == TransitionCallbackReturn.ERROR:
-            machine.trigger(_label_of(self._ros_call(before), machine))
+            self._ros_call(before)
         return outcome
 
     def _ros_call(self, before: LifecycleState) -> TransitionCallbackReturn:
-        """Call what handles the state that the node is in. What it raises counts as an error, and is logged."""
-        callback = self._callbacks[self._state_machine.current_state.id]
+        """Call what handles the state that the node is in, and leave it. What it raises counts as an error, and is logged."""
+        name = HANDLERS[self._state_machine.current_state.label]
+        outcome: Any = TransitionCallbackReturn.ERROR
         try:
-            return callback(before)
+            outcome = getattr(self, name)(before)
         except Exception as error:
             last = extract_tb(error.__traceback__)[-1]
-            what = f"{callback.__name__} raised {type(error).__name__}: {error}"  # the real rclpy says nothing of it
+            what = f"{name} raised {type(error).__name__}: {error}"  # the real rclpy says nothing of it
             place = f"({shown_path(last.filename)}, line {last.lineno})"
             self.get_logger().error(f"{what} {place}. That counts as an error of the transition.")
-            return TransitionCallbackReturn.ERROR
+        if not hasattr(outcome, "to_label"):
+            mistake = AttributeError(f"{type(outcome).__name__!r} object has no attribute 'to_label'")
+            mistake.add_note(f"{name} returned {outcome!r}; end it with `return TransitionCallbackReturn.SUCCESS`.")
+            raise mistake
+        self._state_machine.trigger(outcome.to_label())
+        return outcome
 
     def _ros_offer_services(self, group: CallbackGroup) -> None:
         """Have others see and change the state through services, whose names are those of these functions."""
@@ -261,16 +263,6 @@ class LifecycleNode(LifecycleNodeMixin, Node):
     def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
         Node.__init__(self, node_name, **kwargs)
         LifecycleNodeMixin.__init__(self, enable_communication_interface=enable_communication_interface)
-
-
-def _label_of(outcome: Any, machine: StateMachine) -> str:
-    """The label of the transition that a callback's result means."""
-    if not hasattr(outcome, "to_label"):
-        error = AttributeError(f"{type(outcome).__name__!r} object has no attribute 'to_label'")
-        name = HANDLERS[machine.current_state.label]
-        error.add_note(f"{name} returned {outcome!r}; end it with `return TransitionCallbackReturn.SUCCESS`.")
-        raise error
-    return outcome.to_label()
 
 
 def _description(transition: Transition) -> Any:
