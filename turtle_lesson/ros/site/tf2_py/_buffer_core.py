@@ -36,8 +36,6 @@ from ._rotation import canonical
 CACHE_TIME = 10_000_000_000
 """How long (ns) transforms are kept unless told otherwise."""
 SECOND = 1_000_000_000
-TOLERANCE = 10e-3
-"""How far the squared length of a quaternion may be off 1."""
 SHORTEST = 100_000
 """ns; transforms that came within less time count as if they had taken this long."""
 
@@ -208,9 +206,8 @@ def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:
     place, turn = transform.transform.translation, transform.transform.rotation
     where = (place.x, place.y, place.z)
     how = canonical((turn.x, turn.y, turn.z, turn.w))
-    x, y, z, w = how
-    length_is_one = abs(x * x + y * y + z * z + w * w - 1.0) < TOLERANCE
-    if parent and child and parent != child and length_is_one and not any(map(math.isnan, where)):
+    has_nan, no_turn = any(map(math.isnan, (*where, *how))), any(map(math.isnan, how))  # `how` is of length 1, or NaN
+    if parent and child and parent != child and not has_nan:
         return child, Kept(nanoseconds(transform.header.stamp), parent, how, where)
     by = f'from authority "{authority}"'
     same = f'with frame_id and  child_frame_id "{child}" because they are the same'
@@ -220,12 +217,8 @@ def read_transform(transform: Any, authority: str) -> tuple[str, Kept] | None:
         f"TF_SELF_TRANSFORM: Ignoring transform {by} {same}": child == parent,
         f"TF_NO_CHILD_FRAME_ID: Ignoring transform {by} because child_frame_id not set ": not child,
         f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  {by} because frame_id not set': not parent,
-        f"TF_NAN_INPUT: {of_child} because of a nan value in the transform {values} {quaternion}": any(
-            map(math.isnan, (*where, *how))
-        ),
-        f"TF_DENORMALIZED_QUATERNION: {of_child} because of an invalid quaternion in the transform {quaternion}": (
-            not length_is_one
-        ),
+        f"TF_NAN_INPUT: {of_child} because of a nan value in the transform {values} {quaternion}": has_nan,
+        f"TF_DENORMALIZED_QUATERNION: {of_child} because of an invalid quaternion in the transform {quaternion}": no_turn,
     }
     for refusal, is_so in found.items():
         if is_so:
