@@ -9,7 +9,7 @@ from collections.abc import Callable
 from ..words import angle, count, number, turned
 from .assertions import no_errors, node, publishes, rate, some, subscribes
 from .navigation import POSE, circle
-from .probe import Heard, Probe, field, remembered
+from .probe import Heard, Probe, remembered
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
 
@@ -88,8 +88,8 @@ def ride(probe: Probe) -> tuple[list[Pair], list[Pair], list[Heard]]:
 @expectation("x, y, theta follow the turtle")
 def _pose_follows(probe: Probe) -> Seen:
     pairs = [(status.message, pose.message) for status, pose in ride(probe)[0]]
-    x, y = (max(abs(field(a, name) - field(b, name)) for a, b in pairs) for name in ("x", "y"))
-    off = max(abs(turned(field(a, "theta") - b.theta)) for a, b in pairs)
+    x, y = (max(abs(getattr(a, name) - getattr(b, name)) for a, b in pairs) for name in ("x", "y"))
+    off = max(abs(turned(a.theta - b.theta)) for a, b in pairs)
     seen = f"at most {number(x)} m off in x, {number(y)} m in y, {angle(off)} in theta"
     advice = f"Keep what the newest message on {POSE} says, all three fields of it."
     return Seen(max(x, y) <= LATE and off <= 2 * LATE, seen, advice)
@@ -99,7 +99,7 @@ def _pose_follows(probe: Probe) -> Seen:
 def _velocity_follows(probe: Probe, axis: str, other: str, part: Callable[[float], float]) -> Seen:
     """vel_x or vel_y is the speed along that axis of the map, all around a circle; `part` is the cosine or the sine."""
     told = [
-        (float(field(status.message, f"vel_{axis}")), pose.message.linear_velocity * part(pose.message.theta), pose)
+        (float(getattr(status.message, f"vel_{axis}")), pose.message.linear_velocity * part(pose.message.theta), pose)
         for status, pose in ride(probe)[1]
     ]
     if not told:
@@ -121,13 +121,13 @@ def _stands(probe: Probe) -> Seen:
     _, _, at_rest = ride(probe)
     if not at_rest:
         raise CannotLook(f"no message came on {STATUS} when the turtle stood")
-    x, y = (float(field(at_rest[-1].message, name)) for name in ("vel_x", "vel_y"))
+    x, y = (float(getattr(at_rest[-1].message, name)) for name in ("vel_x", "vel_y"))
     seen = f"vel_x {number(x)} m/s, vel_y {number(y)} m/s"
     return Seen(abs(x) < 0.05 and abs(y) < 0.05, seen, "Use the speed that the pose tells, not a number of your own.")
 
 
 def _charges(heard: list[Heard]) -> list[float]:
-    return [float(field(each.message, "battery")) for each in heard]
+    return [float(each.message.battery) for each in heard]
 
 
 @expectation("battery starts at 100 %")

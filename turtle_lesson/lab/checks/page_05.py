@@ -13,7 +13,7 @@ from ..recording import WORLD
 from ..words import angle, count, number
 from .assertions import agrees, learner_function, messages, no_errors, node, publishes, rate, returns, some
 from .navigation import where
-from .probe import Heard, Probe, field, interface
+from .probe import Heard, Probe, interface
 from .registry import Expectation, check, expectation
 from .results import CannotLook, Seen, hinted
 
@@ -95,35 +95,35 @@ def ray_cast() -> list[Expectation]:
 
 
 def _frame(heard: list[Heard]) -> Seen:
-    frame = field(heard[-1].message, "header.frame_id")
+    frame = heard[-1].message.header.frame_id
     advice = "The header of a message says in which frame its numbers hold."
     return Seen(frame == "base_link", f'it is "{frame}"', advice)
 
 
 def _angles(heard: list[Heard]) -> Seen:
-    low, high = (float(field(heard[-1].message, name)) for name in ("angle_min", "angle_max"))
+    low, high = (float(getattr(heard[-1].message, name)) for name in ("angle_min", "angle_max"))
     good = abs(low + math.pi / 2) < 0.001 and abs(high - math.pi / 2) < 0.001
     return Seen(good, f"from {angle(low)} to {angle(high)}", "Angles are in radians: 90° is half of π.")
 
 
 def _beams(message: Any) -> int:
     """How many readings a scan's angles ask for: both ends have one."""
-    width = field(message, "angle_max") - field(message, "angle_min")
-    step = field(message, "angle_increment")
+    width = message.angle_max - message.angle_min
+    step = message.angle_increment
     if not (step > 0 and math.isfinite(width / step)):
         raise CannotLook(f"angle_increment is {step:g}")
     return math.floor(width / step + 0.01) + 1  # the angles are 32-bit floats: a hair less than a whole number is one
 
 
 def _readings(heard: list[Heard]) -> Seen:
-    counts = {(len(field(each.message, "ranges")), _beams(each.message)) for each in heard}
+    counts = {(len(each.message.ranges), _beams(each.message)) for each in heard}
     there, wanted = max(counts, key=lambda pair: abs(pair[0] - pair[1]))
     seen = f"{count(there, 'reading')}, and the angles ask for {wanted}"
     return Seen(there == wanted, seen, "Both ends have a beam, so there is one beam more than there are steps.")
 
 
 def _ranges(heard: list[Heard]) -> Seen:
-    readings = [float(each) for one in heard for each in field(one.message, "ranges")]
+    readings = [float(each) for one in heard for each in one.message.ranges]
     if not readings:
         raise CannotLook("there is no reading")
     bad = [each for each in readings if not (0.0 <= each <= 10.0 + 1e-6 or each == math.inf)]
@@ -209,7 +209,7 @@ def _put_at(probe: Probe, degrees: float) -> tuple[float, float]:
 
     def told() -> float:
         probe.wait(0.4)
-        return float(field(some(probe, AHEAD, AHEAD_TYPE, 0.5)[-1].message, "data"))
+        return float(some(probe, AHEAD, AHEAD_TYPE, 0.5)[-1].message.data)
 
     before = told()
     with probe.obstacles(obstacle):
@@ -237,9 +237,9 @@ def _shows_the_circles(probe: Probe) -> Seen:
     pose = where(probe)
     probe.wait(0.25)
     message = some(probe, SCAN, SCAN_TYPE, 0.3)[-1].message
-    if len(field(message, "ranges")) != _beams(message):
+    if len(message.ranges) != _beams(message):
         raise CannotLook("the scan has not one reading for each beam")
-    low, step = field(message, "angle_min"), field(message, "angle_increment")
+    low, step = message.angle_min, message.angle_increment
     bearings = [low + i * step for i in range(len(message.ranges))]
     off, at, came = max(
         (abs(reading - _distance(pose, at, circles)), at, reading)
@@ -271,6 +271,6 @@ def sees_three(probe: Probe) -> Seen:
     with probe.obstacles(*(_circle(pose, turn, 1.0, 0.2) for turn in (-0.9, 0.0, 0.9))):
         probe.wait(0.5)
         heard = some(probe, SCAN, SCAN_TYPE, 2.0)
-    near = [sum(each < 1.5 for each in field(one.message, "ranges")) for one in heard]
+    near = [sum(each < 1.5 for each in one.message.ranges) for one in heard]
     seen = f"{count(len(heard), 'scan')} in 2 s, up to {count(max(near), 'near reading')} in one"
     return Seen(len(heard) >= 9 and max(near) >= 3, seen, "Does the detector still run?")

@@ -13,7 +13,7 @@ from ..recording import NANOSECONDS
 from ..words import angle, count, number, point, turned
 from .assertions import answers, no_errors, node, offers, publishes, rate, relays, some, subscribes
 from .navigation import NAVIGATE_TYPE, NEAR, POSE, POSE_TYPE, away, circle, where
-from .probe import Probe, field, interface, remembered
+from .probe import Probe, interface, remembered
 from .registry import Expectation, check
 from .results import Advice, CannotLook, Seen, hinted
 
@@ -122,7 +122,7 @@ def _counts(probe: Probe) -> Seen:
     if not sent:
         raise CannotLook(f"/counter sent nothing on {COUNT}")
     first = sent - len(heard) + 1
-    said = [field(each.message, "data") for each in heard]
+    said = [each.message.data for each in heard]
     wrong = next(((place, each) for place, each in enumerate(said, first) if each != place), None)
     if wrong is None:
         return Seen(True, f"from {said[0]} to {said[-1]} while the check listened")
@@ -195,7 +195,7 @@ def reporter() -> list[Expectation]:
 def _is_news(probe: Probe) -> Seen:
     """Drive the turtle once round a circle, so that x rises and falls, and compare each report with the pose before it."""
     _, _, heard = circle(probe, REPORT, REPORT_TYPE, 1.0, 1.0, 6.3, before=0.1, after=0.1)
-    pairs = [(float(field(said.message, "data")), float(pose.message.x)) for said, pose in heard]
+    pairs = [(float(said.message.data), float(pose.message.x)) for said, pose in heard]
     wrong = [(said, true) for said, true in pairs if not abs(said - true) <= 0.1]
     said, true = wrong[0] if wrong else pairs[-1]
     seen = f"it said {number(said)} when x was {number(true)}"

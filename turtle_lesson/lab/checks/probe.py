@@ -12,7 +12,6 @@ from collections.abc import Callable, Hashable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import reduce, wraps
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 from rcl_interfaces.msg import Log
@@ -84,24 +83,12 @@ def interface(type_name: str) -> Any:
         raise CannotLook(f"the type {type_name} cannot be imported here ({reason})") from None
 
 
-def filled(message: Any, fields: dict[str, Any], type_name: str) -> Any:
-    """The message with its fields set. Raises CannotLook for a field that it does not have."""
+def filled(message: Any, fields: dict[str, Any]) -> Any:
+    """The message with its fields set; nested ones as `linear__x`."""
     for path, value in fields.items():
         *way, last = path.split("__")
-        try:
-            setattr(reduce(getattr, way, message), last, value)
-        except (AttributeError, AssertionError, TypeError) as error:
-            reason = " ".join(str(error).split())[:120]
-            raise CannotLook(f"{type_name} cannot hold {path.replace('__', '.')} = {value!r} ({reason})") from None
+        setattr(reduce(getattr, way, message), last, value)
     return message
-
-
-def field(message: Any, path: str) -> Any:
-    """What a message has in a field such as "linear.x". Raises CannotLook where there is none."""
-    try:
-        return attrgetter(path)(message)
-    except AttributeError:
-        raise CannotLook(f"{type(message).__name__} has no field {path}") from None
 
 
 def _insist_on(type_name: str, words: str, ends: list[tuple[str, str]]) -> None:
@@ -315,7 +302,7 @@ class Probe:
 
     def publish(self, topic: str, type_name: str, **fields: Any) -> None:
         """Publish one message; nested fields as `linear__x=1.0`."""
-        self._publisher(topic, type_name).publish(filled(interface(type_name)(), fields, type_name))
+        self._publisher(topic, type_name).publish(filled(interface(type_name)(), fields))
 
     @remembered
     def _publisher(self, topic: str, type_name: str) -> Publisher:
@@ -347,7 +334,7 @@ class Probe:
     def ask_soon(self, service: str, type_name: str, **fields: Any) -> Callable[[], Answer | None]:
         """Call a service without waiting; returns a function that gives the answer once it has come."""
         client = self._client(service, type_name)
-        request = filled(interface(type_name).Request(), fields, type_name)
+        request = filled(interface(type_name).Request(), fields)
         asked, answered = self.now, []
         future = client.call_async(request)
         future.add_done_callback(lambda _: answered.append(self.now))
