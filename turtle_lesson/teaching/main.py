@@ -128,9 +128,6 @@ def _parser() -> argparse.ArgumentParser:
     where = "file or folder to write to (default: NAME.student.ipynb beside it)"
     student.add_argument("--to", type=Path, metavar="PATH", help=where)
 
-    where = "folder of the published pages (default: those that came with this command)"
-    for command in (opening, reset):
-        command.add_argument("--from", dest="source", type=Path, metavar="FOLDER", help=where)
     return parser
 
 
@@ -174,7 +171,7 @@ def _open(options: argparse.Namespace) -> int:
     path = options.folder or Path("." if pages.is_learners(Path(".")) else pages.FOLDER)
     new = not pages.is_learners(path)
     folder = pages.LearnersFolder(path)
-    said = folder.update(options.source)
+    said = folder.update()
     if options.take_along:
         said += folder.take_along()
     elif new and (begun := pages.begun()):
@@ -207,7 +204,7 @@ def serve(folder: Path, server: str, options: Sequence[str]) -> int:
 
 def _reset(options: argparse.Namespace) -> int:
     path, home = options.notebook, options.notebook.parent
-    published = pages.published(path, options.source)
+    published = pages.published(path)
     mine = pages.is_learners(home)
     kept = pages.LearnersFolder(home).reset(path, published) if mine else pages.reset(path, published)
     yours = f"Yours is kept as {kept.name}." if kept else "It already was."

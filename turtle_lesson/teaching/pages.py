@@ -90,12 +90,8 @@ def unused(path: Path, word: str) -> Path:
     return files.unused(lambda number: path.with_name(f"{path.stem}.{word}-{number}.ipynb"))
 
 
-def published(path: Path, source: Path | None = None) -> bytes:
-    """The published page that a copy is of.
-
-    Published is what lies in `source`; without one, what the checkout's version control holds, or else what was installed.
-    Raises PageError where it is found in neither.
-    """
+def published(path: Path) -> bytes:
+    """The published page that a copy is of. Raises PageError where there is none."""
     if path.suffix != ".ipynb":
         raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
     name = path.name
@@ -105,29 +101,22 @@ def published(path: Path, source: Path | None = None) -> bytes:
             metadata = read(path).metadata
         page = page_of(path, metadata)
         name = f"{page}.ipynb" if page else name
-    content = find_published(name, source)
+    content = find_published(name)
     if content is None:
-        raise _missing(name, source)
-    if source is None and (PUBLISHED / name).resolve() == path.resolve() and _from_git(name) is None:
+        raise PageError(f"{name} cannot be found in {PUBLISHED}")
+    if (PUBLISHED / name).resolve() == path.resolve() and _from_git(name) is None:
         raise PageError(
             f"{name} is the published page itself, and the checkout has no version control that could restore it. "
-            "Download the lesson again, and name its folder of notebooks: --from FOLDER"
+            "Download the lesson again."
         )
     return content
 
 
-def _missing(what: str, source: Path | None) -> PageError:
-    where = source or PUBLISHED
-    return PageError(f"{what} cannot be found in {where}. Name a folder of published pages: --from FOLDER")
-
-
-def find_published(name: str, source: Path | None = None) -> bytes | None:
-    """The published page of a name; None if there is none."""
-    committed = _from_git(name) if source is None else None
-    if committed is not None:
-        return committed
-    file = (source or PUBLISHED) / name
-    return file.read_bytes() if file.is_file() else None
+def find_published(name: str) -> bytes | None:
+    """The published page of a name: as the checkout's version control holds it, or else as it was installed; None if there is
+    none."""
+    file = PUBLISHED / name
+    return _from_git(name) or (file.read_bytes() if file.is_file() else None)
 
 
 def _from_git(name: str) -> bytes | None:
@@ -185,14 +174,14 @@ class LearnersFolder:
     def _remember(self) -> None:
         files.write(self._memory, json.dumps(self._versions, indent=1) + "\n")
 
-    def update(self, source: Path | None = None) -> list[str]:
+    def update(self) -> list[str]:
         """Fill in pages that are missing and bring untouched ones up to date.
 
         A page that was worked on stays, and a newer version is put beside it, once. Returns sentences about that.
         """
         said = []
         for name in NAMES:
-            content = find_published(name, source)
+            content = find_published(name)
             if content is None:
                 continue
             newer = clear(parse(content, Path(name)))
@@ -207,7 +196,7 @@ class LearnersFolder:
                 )
         self._remember()
         if not any((self.path / name).is_file() for name in NAMES):
-            raise _missing("the lesson's pages", source)
+            raise PageError(f"the lesson's pages cannot be found in {PUBLISHED}")
         return said
 
     def _put(self, name: str, page: nbformat.NotebookNode, made_from: str) -> bool:
