@@ -122,7 +122,7 @@ def test_workers_with_another_lesson_are_refused(place: Path, address: str, caps
     assert main(["grade", str(place / "copy.ipynb"), "--client", address]) == 1
     said = capsys.readouterr().err
     assert f"version {__version__}, but tcp://127.0.0.1:" in said
-    assert said.count("has other files of the same version") == 2 and said.count("\n") == 1
+    assert said.endswith("has other files of the same version\n") and said.count("\n") == 1
 
 
 @pytest.mark.parametrize(

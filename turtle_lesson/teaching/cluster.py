@@ -115,18 +115,15 @@ def _check_workers(client: Client, lesson: str) -> None:
     """Raise PageError unless there are workers, all with this lesson."""
     from ..experiments.pools import answers
 
-    found_there = answers(client, lambda: import_module(HERE).own_lesson(), CONNECTING)
-    own, wrong = own_lesson()[0], []
-    for worker, found in sorted(found_there.items()):
+    own = own_lesson()[0]
+    for worker, found in sorted(answers(client, lambda: import_module(HERE).own_lesson(), CONNECTING).items()):
         if isinstance(found, Exception):
-            wrong.append(f"{worker} answers: {found}")
+            other = f"answers: {found}"
         elif found != (own, lesson):
-            other = f"version {found[0]}" if found[0] != own else "other files of the same version"
-            wrong.append(f"{worker} has {other}")
-    if wrong:
-        more = f", and {len(wrong) - 3} more are wrong" if len(wrong) > 3 else ""
-        needed = f"each worker needs the lesson that is installed here, version {own}"
-        raise PageError(f"{needed}, but {'; '.join(wrong[:3])}{more}")
+            other = f"has version {found[0]}" if found[0] != own else "has other files of the same version"
+        else:
+            continue
+        raise PageError(f"each worker needs the lesson that is installed here, version {own}, but {worker} {other}")
 
 
 # -- on a worker --------------------------------------------------------------------------------------------------------
