@@ -276,12 +276,6 @@ def test_a_machine_that_is_full_is_an_answer_too(tmp_path: Path, monkeypatch: py
     assert graded.problem == "it could not be run: No space left on device"
 
 
-def test_a_package_beside_a_copy_is_named_and_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "turtle_lesson").mkdir()
-    graded = ran(tmp_path / "00_welcome.ipynb", [{"end": True}], monkeypatch)
-    assert "a package turtle_lesson lies beside it; the installed one was used" in graded.errors
-
-
 def test_a_page_that_metadata_claim_is_compared_with_the_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = {"metadata": {"turtle_lesson": {"page": "00_welcome"}}, "asked": [], "end": True}
     graded = ran(tmp_path / "10_test_and_validate.ipynb", [said], monkeypatch)

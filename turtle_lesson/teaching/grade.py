@@ -22,7 +22,7 @@ from ..lab.checks.registry import all_checks
 from ..lab.checks.results import GOOD
 from .copies import MEMORY, Copy
 from .pages import page_of
-from .runner import HOME, Seen, run_here
+from .runner import Seen, run_here
 
 LONGEST = 10_000
 """Characters of one text in a report."""
@@ -138,15 +138,11 @@ def judged(copy: Copy, seen: Seen) -> Graded:
 
 
 def _remarks(path: Path, page: str, replaced: list[str], changed: list[str]) -> Iterator[str]:
-    """What a teacher should know of a copy: what it has replaced, brings along, or claims, and which files were changed."""
+    """What a teacher should know of a copy: what it has replaced or claims, and which files were changed."""
     if replaced:
         yield f"from then on its checks earned nothing, because it replaced {', '.join(replaced)}"
     if changed:
         yield f"the installed lesson was changed before this copy was done: {', '.join(changed[:3])}"
-    for name in ("turtle_lesson", "rclpy"):
-        beside = path.with_name(name)
-        if beside.resolve() != HOME and (beside.exists() or beside.with_suffix(".py").exists()):
-            yield f"a package {name} lies beside it; the installed one was used"
     named = page_of(path)
     if named and page != named:
         yield f"its metadata say that it is {page}, and its name that it is {named}"
