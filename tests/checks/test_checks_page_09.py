@@ -33,7 +33,7 @@ def test_another_case_does_not_count(check: str) -> None:
     result = lesson.check(check)
     assert not result.passed
     seed, name = CASES[check]
-    assert result.rows[0].advice.direction == f'Another one is asked for: case = lesson.trouble({seed}, name="{name}")'
+    assert result.rows[0].advice.direction == f'Open this one: case = lesson.trouble({seed}, name="{name}")'
 
 
 @pytest.mark.parametrize("check", CASES)

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from random import Random
 from typing import TYPE_CHECKING, Any
 
-from ...ros.idl.names import nearest
-from ..checks.probe import Probe
-from ..checks.registry import Expectation, expectation
-from ..checks.results import CannotLook, CheckResult, Seen
+from ..checks.registry import Expectation
+from ..checks.results import CheckResult, Seen
+from ..words import suggestion
 from .faults import TROUBLES, Fault, Trouble
 
 if TYPE_CHECKING:
@@ -49,9 +48,9 @@ class Case:
 
     def hint(self, level: int = 1) -> str:
         """A hint: 1 says where to look, 2 with what, 3 nearly tells."""
-        if isinstance(level, bool) or not isinstance(level, int) or not 1 <= level <= 3:
+        if level not in (1, 2, 3):
             raise ValueError(f"hints have levels from 1 to 3, got {level!r}: try case.hint(1)")
-        return (self._trouble.where, self._trouble.how, self._fault.hint)[level - 1]
+        return (self._trouble.where, self._trouble.how, self._fault.hint)[int(level) - 1]
 
     @property
     def cause(self) -> str:
@@ -60,6 +59,8 @@ class Case:
             self._fault.cause if self.check().passed else "It is not mended yet; case.check() says what is still wrong."
         )
 
+
+NONE = "there is none in this world yet"
 
 _current: tuple[Case, TroubleEnvironment] | None = None
 
@@ -93,9 +94,7 @@ def open_case(
 def _named(name: Any) -> Trouble:
     key = str(name).replace("_", " ").strip().lower()
     if key not in TROUBLES:
-        close = nearest(key, TROUBLES, cutoff=0.5)
-        meant = f' Did you mean "{close}"?' if close else ""
-        raise ValueError(f"there is no trouble {name!r}.{meant} There are: {', '.join(TROUBLES)}.")
+        raise ValueError(f"there is no trouble {name!r}. {suggestion(key, TROUBLES)}")
     return TROUBLES[key]
 
 
@@ -116,26 +115,17 @@ def _open_case() -> Case | None:
 def current_expectations() -> list[Expectation]:
     """What is expected of the system once the current case is mended."""
     case = _open_case()
-    return case._trouble.expectations() if case else [_some_case()]
-
-
-@expectation("a case that was opened")
-def _some_case(probe: Probe) -> Seen:
-    raise CannotLook("there is none in this world yet: case = lesson.trouble(1)")
+    if case:
+        return case._trouble.expectations()
+    none = Seen(False, NONE, "Open one: case = lesson.trouble(1)")
+    return [Expectation("a case that was opened", lambda probe: none)]
 
 
 def expectations_of(number: int, name: str) -> list[Expectation]:
     """What is expected once this case is mended, after the expectation that it is the one that is open."""
     case = _open_case()
-    open_now = case is not None and (case.number, case.trouble) == (number, name)
-    return [_is_open(number, name), *(TROUBLES[name].expectations() if open_now else [])]
-
-
-@expectation("the case {number}, {name}")
-def _is_open(probe: Probe, number: int, name: str) -> Seen:
-    wanted = f'case = lesson.trouble({number}, name="{name}")'
-    case = _open_case()
-    if case is None:
-        return Seen(False, "there is none in this world yet", f"Run the cell with {wanted} first.")
-    good = (case.number, case.trouble) == (number, name)
-    return Seen(good, f"it is {case._title}", f"Another one is asked for: {wanted}")
+    good = case is not None and (case.number, case.trouble) == (number, name)
+    seen = f"it is {case._title}" if case else NONE
+    advice = f'Open this one: case = lesson.trouble({number}, name="{name}")'
+    is_open = Expectation(f"the case {number}, {name}", lambda probe: Seen(good, seen, advice))
+    return [is_open, *(TROUBLES[name].expectations() if good else [])]
