@@ -29,15 +29,9 @@ GRADE = """\
 Run copies of pages, each in a kernel and a folder of its own, and print the points for each check.
 
 Checks are carried out and judged by the installed lesson's code: what a copy shows, writes or edits earns nothing, and a copy
-that has replaced code of the lesson is named, and earns nothing from then on. Cells and checks share one process, though: a
-copy that fakes what the checks observe cannot be stopped, nor can one that attacks the grader itself.
-
-What nbgrader, Moodle and GitHub Classroom hand out, in folders or a zip file, is reported with the learners' names.
-
-The cells are run with your rights; with --client, with those of the cluster's workers. They get few environment variables, and
-limits on time, memory (Linux, macOS), files and processes (not for root); what leaves its group of processes and hides its
-variables is not found and goes on. Grade what you do not trust in a container (the folder must hold the copies; the image, an
-installed lesson):
+that has replaced code of the lesson is named, and earns nothing from then on. Cells and checks share one process, though, and
+your rights: a copy that fakes what the checks observe cannot be stopped, nor can one that attacks the grader itself. Grade what
+you do not trust in a container (the folder must hold the copies; the image, an installed lesson):
 
   docker run --rm --network none --memory 4g --pids-limit 500 --user 1000 -v "$PWD/copies:/copies:ro" \\
     IMAGE turtle-lesson grade --json /copies > points.json"""
@@ -72,12 +66,11 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     text = "Open your own folder of the lesson's pages in JupyterLab. It is made if it does not exist; your work in it stays."
-    text += " Other options are passed on to JupyterLab."
+    text += " Other options, such as --no-browser, are passed on to JupyterLab."
     opening = commands.add_parser("open", help="your folder of pages, in JupyterLab", description=text)
     opening.set_defaults(act=_open)
     where = f"your folder (default: this one if it is yours already, or else {pages.FOLDER} in it)"
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
-    opening.add_argument("--no-browser", action="store_true", help="only print the address")
     port = "port of this machine (default: 8888 or the next free one)"
     opening.add_argument("--port", type=_number(int, 0, 65535), metavar="N", help=port)
     begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
@@ -185,8 +178,6 @@ def _open(options: argparse.Namespace) -> int:
     words += ["--ServerApp.ip=127.0.0.1", f"--LabApp.default_url=/lab/tree/{FIRST}"]
     if options.port is not None:
         words += [f"--ServerApp.port={options.port}", "--ServerApp.port_retries=0"]
-    if options.no_browser:
-        words.append("--no-browser")
     return serve(folder.path, "jupyterlab", words)
 
 
