@@ -158,19 +158,12 @@ def test_true_is_not_one_and_nothing_is_not_false(probe: Probe, cells: dict[str,
     assert look(probe, returns("it", [((None,), False)], "it")) == (False, "it(None) is None, not False")
 
 
-def test_a_message_as_an_argument_is_shown_by_its_fields(probe: Probe, cells: dict[str, Any]) -> None:
-    cells["x_of"] = lambda pose: pose.x
-    said = look(probe, returns("x_of", [((Pose(x=1.5),), 2.0)], "x"))[1]
-    assert said.startswith("x_of((x=1.5, y=0.0, theta=0.0")
-    assert said.endswith(" is 1.5, not 2.0")
-
-
 def test_a_function_that_is_not_there(probe: Probe, cells: dict[str, Any]) -> None:
     cells["turn_too"] = abs
     with pytest.raises(CannotLook, match=r'no function turn_to in this notebook\. Did you mean "turn_too"'):
         learner_function(probe, "turn_to")
     cells["turn_to"] = 3
-    with pytest.raises(CannotLook, match="turn_to in this notebook is 3, not a function"):
+    with pytest.raises(CannotLook, match=r"no function turn_to in this notebook"):
         learner_function(probe, "turn_to")
 
 

@@ -103,10 +103,9 @@ def set_parameter(probe: Probe, owner: str, name: str, value: Any) -> None:
     if before is None:
         raise CannotLook(f"{owner} has not declared a parameter {name}")
     old, new = (Parameter(name, value=each).to_parameter_msg() for each in (before, value))
-    results = _ask(probe, owner, "set", parameters=[new]).results
-    if not (results and results[0].successful):
-        reason = (results[0].reason if results else "") or "it gave no reason"
-        raise CannotLook(f"{owner} refused {name} = {value!r}: {reason}")
+    result = _ask(probe, owner, "set", parameters=[new]).results[0]
+    if not result.successful:
+        raise CannotLook(f"{owner} refused {name} = {value!r}: {result.reason}")
 
     def put_back() -> None:
         probe.ask_soon(*_service(owner, "set"), parameters=[old])
@@ -168,13 +167,10 @@ def learner_function(probe: Probe, name: str, file: str = "") -> Callable[..., A
     cells = vars(sys.modules["__main__"])
     names = _names_in(probe, file) if file else cells
     place = f"{file} of your package" if file else "this notebook"
-    found = names.get(name)
-    if found is None:
-        functions = [each for each, value in names.items() if callable(value)]
+    functions = {each: value for each, value in names.items() if callable(value)}
+    if name not in functions:
         raise CannotLook(f"there is no function {name} in {place}. {did_you_mean(name, functions)}".strip(" ."))
-    if not callable(found):
-        raise CannotLook(f"{name} in {place} is {found!r}, not a function")
-    return found
+    return functions[name]
 
 
 @expectation("{expected}")
@@ -209,13 +205,8 @@ def agrees(came: Any, wanted: Any, within: float) -> bool:
 
 
 def _shown(value: Any) -> str:
-    """A value as it is typed; of a float, four decimals at most. A message only by what makes the call readable."""
-    if isinstance(value, float):
-        return f"{round(value, 4)!r}"
-    fields = getattr(value, "get_fields_and_field_types", None)
-    if fields is None:
-        return repr(value)
-    return f"({', '.join(f'{name}={_shown(getattr(value, name))}' for name in fields())})"
+    """A value as it is typed; of a float, four decimals at most."""
+    return repr(round(value, 4) if isinstance(value, float) else value)
 
 
 @remembered

@@ -220,8 +220,6 @@ def arrived(probe: Probe, way: Way, at_rest: bool = False) -> Seen:
     it = driven(probe, way)
     end, distance = it.end(at_rest), it.distance(at_rest)
     seen = f"at {point(end.x, end.y)}, {number(distance)} m from {point(*it.goal[:2])}"
-    if at_rest and is_moving(end):
-        seen += f", and still moving after {LONGEST:g} s"
     when = "in the end" if at_rest else "when the answer comes"
     step = f"Where is the turtle {when}, and what does /turtle1/pose say on the way?"
     return Seen(distance <= NEAR, seen, step)
