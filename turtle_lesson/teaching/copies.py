@@ -8,6 +8,7 @@ same before each file's name; GitHub Classroom's `ASSIGNMENT-submissions/ASSIGNM
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import re
 import shutil
@@ -15,8 +16,7 @@ import signal
 import site
 import zipfile
 import zlib
-from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from threading import Thread
@@ -25,7 +25,7 @@ import psutil
 
 from .pages import PageError
 
-MOODLE = re.compile(r"([^_]+)(?:_(\d+))?_assignsubmission_file(?:_.*)?")
+MOODLE = re.compile(r"([^_]+)(?:_\d+)?_assignsubmission_file(?:_.*)?")
 """A folder that Moodle makes for a learner or a group (in some releases with a `_` at its end), or how it names a file."""
 
 
@@ -76,45 +76,29 @@ def find(paths: Iterable[Path]) -> list[Copy]:
             found |= {Copy(path / name, member=name): path for name in names}
         else:
             found[Copy(path)] = path
+    owned = [replace(copy, learner=_owner(copy.path.absolute(), root.absolute())) for copy, root in found.items()]
     order: dict[str, int] = {}
-    return sorted(_named(found), key=lambda copy: order.setdefault(copy.learner or str(copy.path), len(order)))
+    return sorted(owned, key=lambda copy: order.setdefault(copy.learner or str(copy.path), len(order)))
 
 
 def _is_hidden(path: Path) -> bool:
     return any(part.startswith(".") or part == "__MACOSX" for part in path.parts)
 
 
-def _named(copies: Mapping[Copy, Path]) -> list[Copy]:
-    """The same copies, with their learners' names. Those of one name in one place get Moodle's numbers, too.
-
-    Args:
-        copies: and in which of the paths that are named each was found.
-    """
-    owners = [_owner(Path(os.path.abspath(copy.path)), Path(os.path.abspath(root))) for copy, root in copies.items()]
-    numbers: dict[tuple[Path, str], set[str]] = defaultdict(set)
-    for place, name, number in owners:
-        numbers[place, name].add(number)
-    return [
-        replace(copy, learner=f"{name} ({number})" if number and len(numbers[place, name]) > 1 else name)
-        for copy, (place, name, number) in zip(copies, owners, strict=True)
-    ]
-
-
-def _owner(path: Path, root: Path) -> tuple[Path, str, str]:
-    """Where copies were collected, whose this one is, and Moodle's number of the learner; no name in an unknown layout."""
+def _owner(path: Path, root: Path) -> str:
+    """Whose a copy is that was found in `root`, one of the paths that are named; "" in an unknown layout."""
     parts = path.parts
-    for index, part in enumerate(parts):
+    for part in parts:
         if found := MOODLE.fullmatch(part):
-            return Path(*parts[:index]), found[1].strip(), found[2] or ""
-    for index, part in enumerate(parts[:-3]):  # nbgrader collects in `submitted`, also where a folder above it is named
-        is_course = any(Path(*parts[:index], name).exists() for name in ("nbgrader_config.py", "gradebook.db"))
-        if part == "submitted" and (index >= len(root.parts) - 1 or is_course):
-            return Path(*parts[: index + 1]), parts[index + 1], ""
-    for index, part in enumerate(parts[:-2]):  # `gh classroom clone student-repos` makes such folders
+            return found[1].strip()
+    for index, part in enumerate(parts[:-3]):  # nbgrader's, but no folder of that name above what is named
+        if part == "submitted" and index >= len(root.parts) - 1:
+            return parts[index + 1]
+    for part, inside in itertools.pairwise(parts[:-1]):  # `gh classroom clone student-repos` makes such folders
         assignment = part.removesuffix("-submissions")
-        if assignment != part and parts[index + 1].startswith(f"{assignment}-"):
-            return Path(*parts[: index + 1]), parts[index + 1].removeprefix(f"{assignment}-"), ""
-    return path, "", ""
+        if assignment != part and inside.startswith(f"{assignment}-"):
+            return inside.removeprefix(f"{assignment}-")
+    return ""
 
 
 # -- what a copy gets of the machine -----------------------------------------------------------------------------------
