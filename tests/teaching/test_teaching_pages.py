@@ -47,12 +47,6 @@ def test_a_full_disk_is_said(
     assert capsys.readouterr().err == "turtle-lesson reset: [Errno 28] No space left on device\n"
 
 
-def test_a_renamed_copy_is_known_by_its_page(checkout: Path, mine: Path) -> None:
-    anna = mine.rename(mine.with_name("anna.ipynb"))
-    assert main(["reset", str(anna)]) == 0
-    assert anna.read_bytes() == checkout.read_bytes()
-
-
 def test_the_published_page_itself_needs_version_control(checkout: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["reset", str(checkout)]) == 1
     assert "Download the lesson again" in capsys.readouterr().err

@@ -91,19 +91,10 @@ def unused(path: Path, word: str) -> Path:
 
 
 def published(path: Path) -> bytes:
-    """The published page that a copy is of. Raises PageError where there is none."""
-    if path.suffix != ".ipynb":
-        raise PageError(f"{path} is not a notebook: its name should end in .ipynb")
-    name = path.name
-    if not (PUBLISHED / name).is_file():  # a copy under another name
-        metadata = None
-        with suppress(PageError):  # damaged: all the more reason to reset it
-            metadata = read(path).metadata
-        page = page_of(path, metadata)
-        name = f"{page}.ipynb" if page else name
-    content = find_published(name)
+    """The published page of this name. Raises PageError where there is none, or none but this file itself."""
+    name, content = path.name, find_published(path.name)
     if content is None:
-        raise PageError(f"{name} cannot be found in {PUBLISHED}")
+        raise PageError(f"{name} cannot be found in {PUBLISHED}: what is reset has the name of a page")
     if (PUBLISHED / name).resolve() == path.resolve() and _from_git(name) is None:
         raise PageError(
             f"{name} is the published page itself, and the checkout has no version control that could restore it. "
