@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import sys
 from contextlib import suppress
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -211,54 +210,41 @@ RATES = {STATUS: (STATUS_TYPE, 10, 0.010), page_05.SCAN: (page_05.SCAN_TYPE, 5, 
 """What comes all the time: its type and rate (Hz), and how much later or sooner (s) a message may come."""
 
 
-@dataclass
-class Shift:
-    """Five minutes of work, goal after goal."""
-
-    drives: list[Drive] = field(default_factory=list)
-    heard: dict[str, list[Heard]] = field(default_factory=dict)
-    """By topic, what was heard meanwhile."""
-    whole: bool = True
-    """Whether it took all of its time: it is cut short after a goal that was missed, and where messages come at a
-    wrong rate after the first goals."""
-
-    def pace(self, topic: str) -> Seen:
-        """Whether the messages of a topic came at their rate."""
-        return judge_rate(self.heard.get(topic, []), *RATES[topic][1:])
-
-
 @remembered
-def shift(probe: Probe) -> Shift:
-    """Carry the work out. Raises CannotLook where there is no navigator."""
+def shift(probe: Probe) -> tuple[list[Drive], dict[str, Seen]]:
+    """Five minutes of work, goal after goal: all drives, and of each topic of RATES whether it came at its rate meanwhile.
+
+    It is cut short after a goal that was missed, and where messages come at a wrong rate after a round of goals.
+    """
     probe.wait(1.0)  # an interval may still be of the rate that a parameter had before
-    done = Shift()
+    heard: dict[str, list[Heard]] = {topic: [] for topic in RATES}
     for topic, (type_name, *_) in RATES.items():
         with suppress(CannotLook):
-            done.heard[topic] = probe.listen(topic, type_name)
-    end = probe.now + 60 * MINUTES
-    while done.whole and probe.now < end:
-        made = len(done.drives)
-        done.drives.append(drive(probe, Way(f"drive {made}", None, GOALS[made % len(GOALS)])))
-        a_round = len(done.drives) % len(GOALS) == 0
-        uneven = a_round and not all(done.pace(topic).good for topic in RATES)
-        done.whole = not missed(done.drives[-1]) and not uneven
-    return done
+            heard[topic] = probe.listen(topic, type_name)
+    drives, end = list[Drive](), probe.now + 60 * MINUTES
+    while True:
+        made = len(drives)
+        drives.append(drive(probe, Way(f"drive {made}", None, GOALS[made % len(GOALS)])))
+        pace = {topic: judge_rate(heard[topic], *RATES[topic][1:]) for topic in RATES}
+        uneven = len(drives) % len(GOALS) == 0 and not all(seen.good for seen in pace.values())
+        if probe.now >= end or missed(drives[-1]) or uneven:
+            return drives, pace
 
 
 def _reached(probe: Probe) -> Seen:
-    done = shift(probe)
+    drives, pace = shift(probe)
     step = hinted("Drive to that goal alone: what does the navigator's log say, and how long may a goal take?", 1)
-    if wrong := next(filter(None, map(missed, done.drives)), ""):
+    if wrong := next(filter(None, map(missed, drives)), ""):
         return Seen(False, f"goal {wrong}", step)
-    if not done.whole:
+    if not all(seen.good for seen in pace.values()):
         raise CannotLook("the work was cut short, because messages came too rarely or too often")
-    far = max(it.distance() for it in done.drives)
-    return Seen(True, f"{count(len(done.drives), 'goal')}, all of them, at most {number(far)} m off")
+    far = max(it.distance() for it in drives)
+    return Seen(True, f"{count(len(drives), 'goal')}, all of them, at most {number(far)} m off")
 
 
 def _honest(probe: Probe) -> Seen:
     worst = 0.0
-    for it in shift(probe).drives:
+    for it in shift(probe)[0]:
         begin, end = it.moving()
         worst = max(worst, abs(it.response.time_taken - (end - begin)))
     step = (
@@ -288,4 +274,4 @@ def _just_ahead(pose: Any) -> Goal:
 
 @expectation("{expected}")
 def _rated(probe: Probe, expected: str, topic: str) -> Seen:
-    return shift(probe).pace(topic)
+    return shift(probe)[1][topic]
