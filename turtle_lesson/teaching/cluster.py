@@ -7,7 +7,8 @@ from __future__ import annotations
 import hashlib
 import logging
 import secrets
-from collections.abc import Generator, Iterator, Sequence
+import time
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import lru_cache
 from importlib import import_module
@@ -16,13 +17,16 @@ from typing import TYPE_CHECKING
 
 from .copies import Copy
 from .pages import PageError
-from .runner import Runner, Seen, installed
+from .runner import Runner, Seen, installed, run_all
 
 if TYPE_CHECKING:
     from distributed import Client, Future
 
 CONNECTING = 10
 """Seconds of waiting for the scheduler, a first worker, and an answer."""
+
+LOOK = 0.2
+"""How often, in seconds of real time, it is looked whether a copy is done."""
 
 HERE = "turtle_lesson.teaching.cluster"
 """This module, which workers import by its name: Dask waits for ever for one that cannot import what it was sent."""
@@ -39,41 +43,23 @@ def run_on_cluster(copies: Sequence[Copy], timeout: float, memory: float, addres
     another one than this machine.
     """
     with _connected(address) as client:
-        lesson = fingerprint(installed())
+        lesson, name = fingerprint(installed()), f"turtle-lesson-{secrets.token_hex(8)}"
         _check_workers(client, lesson)
-        from distributed import Event, as_completed
+        from distributed import Event
 
-        name = f"turtle-lesson-{secrets.token_hex(8)}"
-        numbers: dict[object, int] = {}
-        waiting, done = enumerate(copies), as_completed()
-        try:
-            with suppress(OSError):  # the scheduler has gone
-                while client.status == "running":
-                    threads = max(sum(client.nthreads().values()), 1)
-                    while done.count() < threads and (following := next(waiting, None)):
-                        number, copy = following
-                        try:
-                            content = copy.content()
-                        except PageError as error:
-                            yield number, Seen(str(error))
-                            continue
-                        given, key = (content, name, timeout, memory, lesson), f"{name}-{number}"
-                        future = client.submit(
-                            lambda *given: import_module(HERE).run_copy(*given), *given, key=key, pure=False
-                        )
-                        numbers[key] = number
-                        done.add(future)
-                    if done.is_empty():
-                        return
-                    future = next(done)
-                    yield numbers.pop(future.key), _outcome(future)
-            for number in [*numbers.values(), *(number for number, _ in waiting)]:
-                yield number, Seen(GONE)
-        finally:
-            if numbers:
-                with suppress(Exception):  # a scheduler that is gone
-                    Event(name).set()
-                    client.cancel(list(done.futures))
+        def run(content: bytes, stopped: Callable[[], bool]) -> Seen:
+            with suppress(Exception):  # the scheduler has gone
+                given = (content, name, timeout, memory, lesson)
+                future = client.submit(lambda *given: import_module(HERE).run_copy(*given), *given, pure=False)
+                while not (stopped() or future.done()) and client.status == "running":
+                    time.sleep(LOOK)
+                if future.done():
+                    return _outcome(future)
+                Event(name, client=client).set()
+                future.cancel()
+            return Seen(GONE)
+
+        yield from run_all(copies, run, max(sum(client.nthreads().values()), 1))
 
 
 def _outcome(future: Future) -> Seen:
@@ -102,8 +88,7 @@ def _connected(address: str) -> Iterator[Client]:
     client = None
     try:
         client, _ = connected(address, CONNECTING)
-        with client.as_current():  # where events look for it
-            yield client
+        yield client
     except ExperimentError as error:
         raise PageError(str(error)) from None
     finally:

@@ -22,7 +22,7 @@ from ..lab.checks.registry import all_checks
 from ..lab.checks.results import GOOD
 from .copies import MEMORY, Copy
 from .pages import page_of
-from .runner import Seen, run_here
+from .runner import Runner, Seen, run_all
 
 LONGEST = 10_000
 """Characters of one text in a report."""
@@ -114,7 +114,7 @@ def grade(
     all_checks()
     graded: dict[int, Graded] = {}
     if client is None:
-        running = run_here(copies, timeout, memory, jobs)
+        running = run_all(copies, Runner(timeout, memory).run, jobs)
     else:
         from .cluster import run_on_cluster  # here, since Dask is optional, and takes long to import
 

@@ -56,12 +56,22 @@ class Seen:
     """Files of the installed lesson that are not as they were before."""
 
 
-def run_here(copies: Sequence[Copy], timeout: float, memory: float, jobs: int) -> Generator[tuple[int, Seen]]:
-    """Run copies on this machine, `jobs` at once; gives the number of each that is done, and what was seen of it."""
+Run = Callable[[bytes, Callable[[], bool]], Seen]
+"""Runs a notebook, until its end or until the function says that it is to be stopped."""
+
+
+def run_all(copies: Sequence[Copy], run: Run, jobs: int) -> Generator[tuple[int, Seen]]:
+    """Run copies, `jobs` at once; gives the number of each that is done, and what was seen of it."""
     stopped = Event()
-    runner = Runner(timeout, memory)
+
+    def run_one(copy: Copy) -> Seen:
+        try:
+            return run(copy.content(), stopped.is_set)
+        except PageError as error:
+            return Seen(str(error))
+
     with ThreadPoolExecutor(max_workers=jobs) as pool:
-        numbers = {pool.submit(_run, runner, copy, stopped.is_set): number for number, copy in enumerate(copies)}
+        numbers = {pool.submit(run_one, copy): number for number, copy in enumerate(copies)}
         try:
             for future in as_completed(numbers):
                 yield numbers[future], future.result()
@@ -69,13 +79,6 @@ def run_here(copies: Sequence[Copy], timeout: float, memory: float, jobs: int) -
             stopped.set()
             pool.shutdown(cancel_futures=True, wait=False)
             raise
-
-
-def _run(runner: Runner, copy: Copy, stopped: Callable[[], bool]) -> Seen:
-    try:
-        return runner.run(copy.content(), stopped)
-    except PageError as error:
-        return Seen(str(error))
 
 
 def checking_code() -> dict[str, Any]:
