@@ -16,21 +16,20 @@ from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
 
 from rcl_interfaces.msg import Log
 from rclpy.client import Client
+from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from ...ros.idl.names import is_hidden, nearest
 from ...ros.sim.interrupts import work_done
+from ...turtlesim.obstacles import Box, Circle
 from ..graph import node_names, of_node, others, owner, servers
 from ..recording import NANOSECONDS
 from ..words import listed, number
 from .results import ENDLESS, CannotLook, Stopped, in_words, never_returned, unreturned
 
 if TYPE_CHECKING:
-    from rclpy.publisher import Publisher
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
-
     from ...session.check_target import CheckTarget
-    from ...turtlesim.obstacles import Box, Circle
 
 P = ParamSpec("P")
 T = TypeVar("T")

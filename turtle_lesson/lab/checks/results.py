@@ -11,16 +11,14 @@ import traceback
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from traceback import FrameSummary
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from rclpy import executors
 
 from ...ros.sim import errors
 from ...ros.sim.errors import DriveTimeout, NeverReturns
+from ...ros.sim.strand import Strand
 from ..words import count, number, shortened
-
-if TYPE_CHECKING:
-    from ...ros.sim.strand import Strand
 
 GOOD, BAD, OPEN, STOPPED = "✓", "✗", "–", "■"
 
