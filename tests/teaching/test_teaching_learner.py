@@ -230,7 +230,7 @@ def test_a_folder_that_cannot_be_the_learners_is_explained(
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "thesis.txt").write_text("")
     for wrong, reason in {
-        "notes": "notes is a file, but a folder is needed",
+        "notes": "pages cannot be kept in notes: File exists",
         "notes/deeper": "pages cannot be kept in notes/deeper: Not a directory",
         "other": "other already holds other files, and they are left alone",
     }.items():

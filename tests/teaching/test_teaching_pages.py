@@ -39,7 +39,7 @@ def test_a_page_is_reset_and_mine_is_kept(checkout: Path, mine: Path, capsys: py
 def test_a_full_disk_is_said(
     checkout: Path, mine: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def fill_up(path: Path, content: bytes) -> None:
+    def fill_up(path: Path) -> None:
         raise OSError(28, "No space left on device")  # which names no file
 
     monkeypatch.setattr("turtle_lesson.teaching.pages.reset", fill_up)
@@ -80,7 +80,7 @@ def test_student_leaves_the_solutions_and_outputs_out(
     assert not any("%%solution" in cell.source for cell in notebook.cells)
     assert not any(cell.outputs or cell.execution_count for cell in notebook.cells)
     assert main(["student", str(mine)]) == 1
-    assert "nothing is ever overwritten" in capsys.readouterr().err
+    assert f"{written}: File exists" in capsys.readouterr().err, "nothing is ever overwritten"
     assert main(["student", str(mine), "--to", str(tmp_path)]) == 0
     assert (tmp_path / mine.name).is_file()
 

@@ -71,8 +71,8 @@ def _parser() -> argparse.ArgumentParser:
     opening.set_defaults(act=_open)
     where = f"your folder (default: this one if it is yours already, or else {pages.FOLDER} in it)"
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
-    port = "port of this machine (default: 8888 or the next free one)"
-    opening.add_argument("--port", type=_number(int, 0, 65535), metavar="N", help=port)
+    port = _number(int, 0, 65535)
+    opening.add_argument("--port", type=port, metavar="N", help="default: 8888 or the next free one")
     begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
     opening.add_argument("--take-along", action="store_true", help=begun)
     hub = "be a learner's server of JupyterHub, which calls this command (deploy/jupyterhub shows how)"
@@ -194,10 +194,7 @@ def serve(folder: Path, server: str, options: Sequence[str]) -> int:
 
 
 def _reset(options: argparse.Namespace) -> int:
-    path, home = options.notebook, options.notebook.parent
-    published = pages.published(path)
-    mine = pages.is_learners(home)
-    kept = pages.LearnersFolder(home).reset(path, published) if mine else pages.reset(path, published)
+    kept = pages.reset(options.notebook)
     yours = f"Yours is kept as {kept.name}." if kept else "It already was."
     print(f"{options.notebook} is as it was published. {yours}")
     return 0

@@ -34,12 +34,8 @@ class PageError(Exception):
 
 
 def read(path: Path) -> nbformat.NotebookNode:
-    """The notebook in a file. Raises PageError, which says why it cannot be read."""
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise PageError(f"{path} cannot be read: {error.strerror}") from None
-    return parse(content, path)
+    """The notebook in a file. Raises OSError, or PageError, which says why that is not a notebook."""
+    return parse(path.read_bytes(), path)
 
 
 def parse(content: bytes, path: Path) -> nbformat.NotebookNode:
@@ -71,16 +67,20 @@ def page_of(path: Path, metadata: Any = None) -> str:
     return next((each for each in PAGES if each in path.stem), "")
 
 
-def reset(path: Path, content: bytes) -> Path | None:
-    """Put a page back into its published state; returns where the learner's copy is kept, None if nothing had changed."""
-    if path.is_file() and path.read_bytes() == content:
-        return None
+def reset(path: Path) -> Path | None:
+    """Put a page back as it was published, in a learner's folder without outputs.
+
+    Returns where the learner's copy is kept, None if nothing had changed.
+    """
+    content = published(path)
+    if is_learners(path.parent):
+        content = LearnersFolder(path.parent).fresh(path.name, content)
     kept = None
-    if path.exists():
+    if path.is_file():
+        if path.read_bytes() == content:
+            return None
         kept = unused(path, "mine")
         shutil.copy2(path, kept)
-    elif not path.parent.is_dir():
-        raise PageError(f"{path.parent} does not exist")
     path.write_bytes(content)
     return kept
 
@@ -129,13 +129,8 @@ def without_solutions(path: Path, to: Path | None = None) -> tuple[Path, int]:
     cells = [cell for cell in notebook.cells if "solution" not in cell.metadata.get("tags", [])]
     removed = len(notebook.cells) - len(cells)
     notebook.cells = cells
-    try:
-        with target.open("x", encoding="utf-8") as file:
-            nbformat.write(notebook, file)
-    except FileExistsError:
-        raise PageError(
-            f"{target} already exists, and nothing is ever overwritten: choose another name with --to"
-        ) from None
+    with target.open("x", encoding="utf-8") as file:
+        nbformat.write(notebook, file)
     return target, removed
 
 
@@ -149,8 +144,6 @@ class LearnersFolder:
         self.path = path
         self._memory = path / MEMORY
         elsewhere = f"Name another folder: turtle-lesson open {Path.home() / FOLDER}"
-        if path.exists() and not path.is_dir():
-            raise PageError(f"{path} is a file, but a folder is needed. {elsewhere}")
         try:
             if not is_learners(path) and path.is_dir() and any(path.glob("[!.]*")):
                 raise PageError(f"{path} already holds other files, and they are left alone. {elsewhere}")
@@ -193,7 +186,7 @@ class LearnersFolder:
     def _put(self, name: str, page: nbformat.NotebookNode, made_from: str) -> bool:
         """Write a page, unless the learner's copy was worked on and differs; whether the page is there now."""
         path, mine = self.path / name, ""
-        with suppress(PageError):  # there is none, or no notebook
+        with suppress(PageError, OSError):  # there is none, or no notebook
             mine = version(read(path))
         if mine != version(page):
             if path.exists() and mine != self._versions.get(name):
@@ -202,12 +195,12 @@ class LearnersFolder:
         self._versions[name] = made_from
         return True
 
-    def reset(self, path: Path, published: bytes) -> Path | None:
-        """Put a page back as it was published, without outputs; returns where the learner's copy is kept, if it differs."""
-        page = clear(parse(published, path))
-        self._versions[path.name] = version(page)
+    def fresh(self, name: str, published: bytes) -> bytes:
+        """A published page without outputs; from now on, the copy of this name is made from it."""
+        page = clear(parse(published, Path(name)))
+        self._versions[name] = version(page)
         self._remember()
-        return reset(path, f"{nbformat.writes(page)}\n".encode())
+        return f"{nbformat.writes(page)}\n".encode()
 
     def take_along(self) -> list[str]:
         """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.
