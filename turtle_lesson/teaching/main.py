@@ -88,12 +88,12 @@ def _parser() -> argparse.ArgumentParser:
     grading.add_argument("--junit", type=Path, metavar="FILE", help="also write a JUnit report")
     grading.add_argument("--csv", type=Path, metavar="FILE", help="also write a table with a line for each copy")
     how_long = f"computing time that one copy may take, s (default: {TIMEOUT:g}); waiting, {PATIENCE} times as long"
-    seconds = _number(float, 1, 86400, " seconds")
+    seconds = _number(float, 1, 86400)
     grading.add_argument("--timeout", type=seconds, default=TIMEOUT, metavar="SECONDS", help=how_long)
     how_much = f"memory that each process of a copy may take, where the system limits that (default: {MEMORY:g})"
-    grading.add_argument("--memory", type=_number(float, 0.5, 1000, " GB"), default=MEMORY, metavar="GB", help=how_much)
+    grading.add_argument("--memory", type=_number(float, 0.5, 1000), default=MEMORY, metavar="GB", help=how_much)
     place = grading.add_mutually_exclusive_group()
-    many = "copies at once (default: one for each core that may be used)"
+    many = "how many at once (default: one for each core that may be used)"
     place.add_argument("--jobs", type=_number(int, 1, 256), metavar="N", help=many)
     cluster = "run them on a Dask cluster instead; the address of its scheduler, such as tcp://10.0.0.1:8786"
     place.add_argument("--client", metavar="ADDRESS", help=cluster)
@@ -103,7 +103,6 @@ def _parser() -> argparse.ArgumentParser:
     running = commands.add_parser("run", help="an experiment of many runs", description=text)
     running.set_defaults(act=_run)
     running.add_argument("script", type=Path, metavar="EXPERIMENT.py", help="the script")
-    many = "worker processes (default: one for each core that may be used)"
     running.add_argument("--jobs", type=_number(int, 1, 512), metavar="N", help=many)
     where = "also save the table, to NAME.csv or NAME.parquet (further ones of the script: NAME-2.csv, …)"
     running.add_argument("--csv", type=Path, metavar="FILE", help=where)
@@ -124,12 +123,12 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _number(kind: type[int] | type[float], least: float, most: float, unit: str = "") -> Callable[[str], float]:
+def _number(kind: type[int] | type[float], least: float, most: float) -> Callable[[str], float]:
     """What reads an option's number, within limits."""
 
     def number(text: str) -> float:
         if not least <= kind(text) <= most:
-            raise argparse.ArgumentTypeError(f"must be from {least} to {most}{unit}")
+            raise argparse.ArgumentTypeError(f"must be from {least} to {most}")
         return kind(text)
 
     return number
