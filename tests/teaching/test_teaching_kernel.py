@@ -71,12 +71,6 @@ def test_commands_and_names_of_the_lesson_say_which_cell_to_run(ask: Ask) -> Non
     assert "NameError" in error and HINT not in error
 
 
-def test_commands_may_stand_in_the_cell_that_loads_the_extension(ask: Ask) -> None:
-    out, error = ask(f"{SET_UP}ros2 node list\nmkdir -p deep/er && ls")
-    assert (out.splitlines()[-2:], error) == (["/turtlesim", "deep"], "")
-    assert ask("ros2 node list") == ("/turtlesim\n", "")
-
-
 def test_what_is_not_the_lessons_is_as_ever(ask: Ask) -> None:
     assert ask("import sys\nsorted(n for n in sys.modules if n.startswith('turtle_lesson'))") == ("[]", "")
     assert ask("[name for name in dir() if name in ('watch', 'HINT', 'terminal', 're')]") == ("[]", "")

@@ -18,7 +18,6 @@ HINT = (
     "Run the set-up cell first: it is the page's first code cell, with %load_ext turtle_lesson.\n"
     "A kernel that has just started knows nothing about cells that ran before."
 )
-SET_UP = re.compile(r"(?m)^[ \t]*%load_ext[ \t]+turtle_lesson\b")
 COMMAND = re.compile(r"[ \t]*(?:ros2|colcon|source|cd|mkdir|ls|cat|touch)[ \t]+[\w~./$\"'-]")
 """A line that is not Python, and surely meant for the lesson's terminal."""
 
@@ -37,16 +36,6 @@ class LessonKernelApp(IPKernelApp):
 
 def watch(shell: Any) -> None:
     """Have a shell answer commands and names of the lesson with a hint, until the extension is loaded."""
-
-    def transform(lines: list[str]) -> list[str]:
-        if "turtle_lesson" in shell.extension_manager.loaded or not SET_UP.search("".join(lines)):
-            return lines
-        from turtle_lesson.ros.cli.cells import translate
-
-        return translate(lines, shell.user_ns)  # behind %load_ext in the same cell the commands work
-
-    transform.is_turtle_lesson = True  # type: ignore[attr-defined]  # the extension puts its own in place of this one
-    shell.input_transformer_manager.line_transforms.append(transform)
     for word in ("ros2", "colcon", "source"):
         shell.register_magic_function(not_yet, magic_name=word)
     shell.set_custom_exc((NameError, ModuleNotFoundError, SyntaxError), explain)
