@@ -11,7 +11,6 @@ import nbformat
 import pytest
 import teaching_copies as copies
 
-from turtle_lesson.lab.progress import FILE, ProgressFile
 from turtle_lesson.teaching import main as command
 from turtle_lesson.teaching import pages
 from turtle_lesson.teaching.main import main
@@ -147,24 +146,11 @@ def test_reset_in_a_learners_folder_leaves_no_outputs(
 def test_what_was_begun_in_notebooks_is_taken_along(checkout: Path, mine: Path) -> None:
     copies.commit()
     work(checkout)
-    source = checkout.parent / "workspace" / "src" / "robot_controller" / "navigator.py"
-    for file in (source, checkout.parent / "workspace" / "build" / "x"):
-        file.parent.mkdir(parents=True)
-        file.write_text("mine")
-    ProgressFile(checkout.parent / FILE).keep({"counter": 3, "doubler": 2})
     update(mine)
     assert nbformat.read(mine, as_version=4).cells[1].source == copies.STUB
-    ProgressFile(mine.parent / FILE).keep({"doubler": 3})
-    assert LearnersFolder(mine.parent).take_along() == [
-        f"{NAME} was copied.",
-        "The workspace was copied without its build: build it again.",
-        "5 points were copied.",
-    ]
+    assert LearnersFolder(mine.parent).take_along() == [f"{NAME} was copied."]
     page = nbformat.read(mine, as_version=4)
     assert page.cells[1].source == copies.RIGHT and not page.cells[1].outputs
-    assert (mine.parent / "workspace" / "src" / "robot_controller" / "navigator.py").read_text() == "mine"
-    assert not (mine.parent / "workspace" / "build").exists()
-    assert ProgressFile(mine.parent / FILE).points() == {"counter": 3, "doubler": 3}
     assert update(mine) == [], "it is work on the published version that is there"
 
 
@@ -174,11 +160,7 @@ def test_what_is_here_already_is_not_overwritten_by_what_is_taken_along(checkout
     work(mine, copies.TOO_SLOW)
     before = mine.read_bytes()
     work(checkout)
-    for folder in (mine.parent, checkout.parent):
-        (folder / "workspace").mkdir()
-    said = LearnersFolder(mine.parent).take_along()
-    assert said[0] == f"{NAME} was copied, as {copies.PAGE}.mine-1.ipynb."
-    assert "There is a workspace" in said[1]
+    assert LearnersFolder(mine.parent).take_along() == [f"{NAME} was copied, as {copies.PAGE}.mine-1.ipynb."]
     assert mine.read_bytes() == before
 
 

@@ -52,12 +52,6 @@ class ProgressFile:
         self._read()
         return {name: each for name, each in self._points.items() if each}
 
-    def keep(self, points: dict[str, int]) -> None:
-        """Take over points that were earned elsewhere, where they are more than here."""
-        self._read()
-        self._take(points)
-        self._write()
-
     def _take(self, points: dict[str, int]) -> None:
         self._points |= {name: max(each, self._points.get(name, 0)) for name, each in points.items()}
 

@@ -73,7 +73,7 @@ def _parser() -> argparse.ArgumentParser:
     opening.add_argument("folder", nargs="?", type=Path, metavar="DIR", help=where)
     port = _number(int, 0, 65535)
     opening.add_argument("--port", type=port, metavar="N", help="default: 8888 or the next free one")
-    begun = "copy the pages, the workspace and the points that you began in the checkout's notebooks"
+    begun = "copy the pages that you began in the checkout's notebooks"
     opening.add_argument("--take-along", action="store_true", help=begun)
     hub = "be a learner's server of JupyterHub, which calls this command (deploy/jupyterhub shows how)"
     opening.add_argument("--hub", action="store_true", help=hub)

@@ -16,7 +16,6 @@ from typing import Any
 
 import nbformat
 
-from ..lab import progress
 from ..learner.story import PAGES, PUBLISHED
 from ..ros.runtime import files
 
@@ -203,9 +202,9 @@ class LearnersFolder:
         return f"{nbformat.writes(page)}\n".encode()
 
     def take_along(self) -> list[str]:
-        """Take what was begun in the checkout's `notebooks`: changed pages, the workspace, and points.
+        """Take along the pages that were begun in the checkout's `notebooks`; those that are here already stay.
 
-        What is here already stays. Returns sentences about what was done.
+        Returns sentences about what was done.
         """
         said = []
         for name in begun():
@@ -215,16 +214,6 @@ class LearnersFolder:
                 nbformat.write(page, path)
             said.append(f"{name} was copied" + (f", as {path.name}." if path.name != name else "."))
         self._remember()
-        theirs, mine = PUBLISHED / "workspace", self.path / "workspace"
-        if theirs.is_dir() and mine.exists():
-            said.append(f"There is a workspace in {self.path} already: {theirs} was not copied.")
-        elif theirs.is_dir():
-            shutil.copytree(theirs, mine, ignore=shutil.ignore_patterns("build", "install", "log"))
-            said.append("The workspace was copied without its build: build it again.")
-        points = progress.ProgressFile(PUBLISHED / progress.FILE).points()
-        if points:
-            progress.ProgressFile(self.path / progress.FILE).keep(points)
-            said.append(f"{sum(points.values())} points were copied.")
         return said or [f"No page was begun in {PUBLISHED}."]
 
 
