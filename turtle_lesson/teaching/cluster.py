@@ -5,7 +5,6 @@ was seen. A worker runs them by the same code as this machine does, and takes pa
 from __future__ import annotations
 
 import hashlib
-import logging
 import secrets
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -83,8 +82,6 @@ def _connected(address: str) -> Iterator[Client]:
     from ..experiments.one_run import ExperimentError
     from ..experiments.pools import connected
 
-    for name in ("distributed", "distributed.client"):  # what goes wrong is said in the reports
-        logging.getLogger(name).setLevel(logging.CRITICAL)
     client = None
     try:
         client, _ = connected(address, CONNECTING)

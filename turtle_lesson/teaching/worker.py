@@ -15,7 +15,6 @@ import contextlib
 import hashlib
 import hmac
 import json
-import logging
 import marshal
 import os
 import re
@@ -24,7 +23,6 @@ import shutil
 import socket
 import sys
 import time
-import warnings
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
@@ -72,11 +70,7 @@ def main(arguments: list[str]) -> None:
     folder, seconds, memory = arguments
     grader = os.getppid()
     with open(os.dup(1), "w", encoding="utf-8") as line:
-        quiet = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(quiet, 1)
-        os.dup2(quiet, 2)
-        logging.disable(logging.CRITICAL)
-        warnings.simplefilter("ignore")
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         sent = marshal.load(sys.stdin.buffer)
         notebook = sys.stdin.buffer.read()
         limit(float(memory))
