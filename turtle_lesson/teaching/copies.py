@@ -141,12 +141,14 @@ def limit(memory: float) -> None:
         import resource
     except ImportError:  # Windows
         return
+    seen = [each.info for each in psutil.process_iter(["num_threads", "uids"])]
+    threads = sum(each["num_threads"] or 0 for each in seen if each["uids"] and each["uids"].real == os.getuid())
     most = {
         "RLIMIT_AS": round(memory * 1e9),
         "RLIMIT_FSIZE": 200_000_000,  # bytes of one file
         "RLIMIT_CORE": 0,
         "RLIMIT_NOFILE": 2048,
-        "RLIMIT_NPROC": _threads_of_this_user() + 300,  # processes and threads, on top of what the user has already
+        "RLIMIT_NPROC": threads + 300,  # processes and threads, on top of what the user has already
     }
     for name, value in most.items():
         with contextlib.suppress(AttributeError, OSError, ValueError):  # macOS refuses some
@@ -160,11 +162,6 @@ def limit(memory: float) -> None:
                 resource.setrlimit(kind, (hard, hard))
             else:
                 resource.setrlimit(kind, (limit, limit))
-
-
-def _threads_of_this_user() -> int:
-    seen = [each.info for each in psutil.process_iter(["num_threads", "uids"])]
-    return sum(each["num_threads"] or 0 for each in seen if each["uids"] and each["uids"].real == os.getuid())
 
 
 def environment(folder: Path, mark: str, package: str) -> dict[str, str]:

@@ -214,8 +214,12 @@ class Kernel:
         """Carry a check out: its rows, and what the copy has replaced; no rows if it did not answer."""
         secret, key = secrets.token_bytes(16), secrets.token_bytes(16)
         question = {**self._sent, "check": name, "variable": variable, "secret": secret}
-        with _opened(self._folder) as listener, ThreadPoolExecutor(1) as pool:
-            over = Event()
+        here = str(self._folder.with_name(secrets.token_hex(8)))  # an address that was not known before
+        is_unix, over = hasattr(socket, "AF_UNIX"), Event()
+        with socket.socket(socket.AF_UNIX if is_unix else socket.AF_INET) as listener, ThreadPoolExecutor(1) as pool:
+            listener.settimeout(0.2)
+            listener.bind(here if is_unix else ("127.0.0.1", 0))
+            listener.listen()
             answered = pool.submit(_answer, listener, marshal.dumps(question), secret + key, over)
             code = ASK.format(family=int(listener.family), address=repr(listener.getsockname()), key=key)
             try:
@@ -223,20 +227,6 @@ class Kernel:
             finally:
                 over.set()
             return dict(answered.result())
-
-
-@contextlib.contextmanager
-def _opened(folder: Path) -> Iterator[socket.socket]:
-    """A socket that waits for one to connect; its address was not known before."""
-    here = folder.with_name(secrets.token_hex(8))
-    with socket.socket(socket.AF_UNIX if hasattr(socket, "AF_UNIX") else socket.AF_INET) as listener:
-        listener.settimeout(0.2)
-        listener.bind(str(here) if hasattr(socket, "AF_UNIX") else ("127.0.0.1", 0))
-        listener.listen()
-        try:
-            yield listener
-        finally:
-            here.unlink(missing_ok=True)
 
 
 def _answer(listener: socket.socket, question: bytes, secret: bytes, over: Event) -> dict[str, Any]:

@@ -97,10 +97,16 @@ def _before_the_first(probe: Probe) -> Seen:
 
 @expectation("{expected}")
 def _says_true(probe: Probe, expected: str, advice: str | Advice, after_silence: bool = False) -> Seen:
-    """While a status comes the robot is alive: each time, or in the end where it did not come before."""
+    """While a status comes every 0.4 s the robot is alive: each time, or in the end where it did not come before."""
     if after_silence:
         _hush(probe)
-    heard = _speak(probe)
+    heard = _verdicts(probe)
+    _status(probe)
+    probe.wait(0.01)
+    heard.clear()
+    for _ in range(4):
+        _status(probe, 0.39)
+        probe.wait(0.01)
     if not heard:
         return _nothing_came(probe)
     said = [each.message.data for each in heard]
@@ -135,18 +141,6 @@ def _status(probe: Probe, pause: float = 0.0) -> None:
     """One status, after a pause (s)."""
     probe.wait(pause)
     probe.publish(STATUS, STATUS_TYPE, battery=50.0)
-
-
-def _speak(probe: Probe) -> list[Heard]:
-    """A status every 0.4 s: what is said meanwhile."""
-    heard = _verdicts(probe)
-    _status(probe)
-    probe.wait(0.01)
-    heard.clear()
-    for _ in range(4):
-        _status(probe, 0.39)
-        probe.wait(0.01)
-    return heard
 
 
 @remembered
