@@ -95,8 +95,6 @@ def _only(probe: Probe, *wanted: str) -> Seen:
 @expectation("{name}:={value} reaches /{owner}")
 def _argument_reaches(probe: Probe, owner: str, name: str, value: int | float) -> Seen:
     found = _launch_again(probe)
-    if isinstance(found, str):
-        return Seen(False, found, "Read the error from its last line up.")
     if found[owner] is None:
         raise CannotLook(f"there is no node /{owner}")
     step = f"Where does the launch file declare {name}, and where does it hand the value on?"
@@ -105,8 +103,8 @@ def _argument_reaches(probe: Probe, owner: str, name: str, value: int | float) -
 
 
 @remembered
-def _launch_again(probe: Probe) -> dict[str, Any] | str:
-    """The nodes' parameters in a second launch with other arguments, beside the first; or why it was refused."""
+def _launch_again(probe: Probe) -> dict[str, Any]:
+    """The nodes' parameters in a second launch with other arguments, beside the first. Raises CannotLook if it is refused."""
     from ...ros.launching import LaunchError
 
     package, file = LAUNCH.split()[2:]
@@ -120,7 +118,7 @@ def _launch_again(probe: Probe) -> dict[str, Any] | str:
                 for owner, name, _ in ARGUMENTS
             }
     except LaunchError as error:
-        return f"the launch file was refused: {' '.join(str(error).split())[:160]}"
+        raise CannotLook(f"the launch file was refused: {' '.join(str(error).split())[:160]}") from None
 
 
 @expectation("{name} set to {seconds!r}: gives up on a far goal")
