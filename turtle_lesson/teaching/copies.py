@@ -11,7 +11,6 @@ import contextlib
 import itertools
 import os
 import re
-import shutil
 import signal
 import site
 import zipfile
@@ -173,15 +172,6 @@ def environment(folder: Path, mark: str, package: str) -> dict[str, str]:
     user = {"PYTHONUSERBASE": site.getuserbase()} if site.ENABLE_USER_SITE else {}
     off = dict.fromkeys(("TURTLE_LESSON_PROGRESS", "TURTLE_LESSON_CACHE"), "off")
     return {**kept, **home, **one_thread, **user, **off, "PYTHONPATH": paths, MARK: mark}
-
-
-def take_fonts(folder: Path) -> None:
-    """Copy matplotlib's list of fonts into a copy's home: without it, the first picture takes seconds longer."""
-    theirs = folder / ".cache" / "matplotlib"
-    for each in (Path.home() / ".cache" / "matplotlib").glob("fontlist-*.json"):
-        theirs.mkdir(parents=True, exist_ok=True)
-        with contextlib.suppress(OSError):
-            shutil.copy(each, theirs)
 
 
 def is_too_full(folder: Path) -> bool:

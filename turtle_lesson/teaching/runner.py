@@ -25,7 +25,7 @@ from threading import Event, Thread
 from typing import Any
 
 from ..lab.checks.results import BAD, GOOD
-from .copies import LARGEST, Copy, end_all, environment, is_too_full, real_time, take_fonts
+from .copies import LARGEST, Copy, end_all, environment, is_too_full, real_time
 from .pages import PageError
 
 GRACE = 15.0
@@ -125,7 +125,6 @@ class Runner:
         home, desk, mark = folder / "home", folder / "desk", secrets.token_hex(8)
         home.mkdir()
         desk.mkdir()
-        take_fonts(home)
         # A socket, where there is one: a pipe could be opened by the copy, too, through /proc.
         ours, theirs = socket.socketpair() if os.name == "posix" else (None, None)
         process = subprocess.Popen(
