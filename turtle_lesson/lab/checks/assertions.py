@@ -13,7 +13,7 @@ from rclpy.parameter import Parameter, parameter_value_to_python
 
 from ...learner.workspace import workspace
 from ..words import count, did_you_mean, listed, number, shortened
-from .probe import Answer, Heard, Probe, remembered
+from .probe import Heard, Probe, remembered
 from .registry import Expectation, expectation
 from .results import NO_ERROR, Advice, CannotLook, Seen, hinted
 
@@ -344,21 +344,8 @@ def answers(
     """A service answers a request rightly within 2 s. `expected` says both in words: "2 + 3 is 5"."""
     answer = probe.ask(service, type_name, 2.0, **request)
     if answer.response is None:
-        return no_answer(probe, "no answer within 2 s")
+        return probe.no_answer("no answer within 2 s")
     return Seen(bool(right(answer.response)), brief(answer.response), next_step)
-
-
-def no_answer(probe: Probe, words: str) -> Seen:
-    """What is said where a request was not answered: the learner's error comes first, or where its callback still is."""
-    probe.raise_error()
-    if waiting := probe.unreturned():
-        return Seen(False, f"{words}; {waiting}", "What does the callback wait for?")
-    return Seen(False, words, "Does the callback end with `return response`?")
-
-
-def told(answer: Answer) -> str:
-    """What an answer says of its success, and when it came."""
-    return f"success is {answer.response.success} after {number(answer.seconds)} s"
 
 
 FLOOD = 100

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..words import angle, number, point, turned
-from .assertions import gaps_of, no_answer, told
+from .assertions import gaps_of
 from .probe import Answer, Heard, Probe, remembered
 from .registry import expectation
 from .results import CannotLook, Seen, hinted
@@ -209,9 +209,9 @@ def answered(probe: Probe, way: Way) -> Seen:
     """A goal is answered in time, with success True."""
     it = drive(probe, way)
     if it.answer.response is None:
-        return no_answer(probe, f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
+        return probe.no_answer(f"no answer to the goal {point(*it.goal[:2])} in {LONGEST:g} s")
     step = "What is response.success when on_goal returns the response?"
-    return Seen(bool(it.response.success), told(it.answer), step)
+    return Seen(bool(it.response.success), it.answer.told, step)
 
 
 @expectation(f"{{way.name}}: the turtle within {NEAR:g} m of it")

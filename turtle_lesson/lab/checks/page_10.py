@@ -12,7 +12,7 @@ from ...learner.workspace import workspace
 from ..recording import WORLD
 from ..words import count, listed, number
 from . import page_05
-from .assertions import judge_rate, learner_function, no_errors, publishes, relays, subscribes, told
+from .assertions import judge_rate, learner_function, no_errors, publishes, relays, subscribes
 from .navigation import NEAR, Drive, Goal, Way, ask_for, away, drive, missed, where
 from .page_04 import STATUS, STATUS_TYPE
 from .pages_06_07 import system_is_there
@@ -253,7 +253,7 @@ def _near_goal(probe: Probe) -> Seen:
     if answer.response is None:
         return Seen(False, "no answer in 30 s", "Ask for that goal alone, and read the navigator's log.")
     good = bool(answer.response.success) and answer.seconds <= 2.0 and away(where(probe), goal) <= NEAR
-    return Seen(good, f"0.5 m: {told(answer)}", "Is the speed high enough, and does it go on waiting when it is there?")
+    return Seen(good, f"0.5 m: {answer.told}", "Is the speed high enough, and does it go on waiting when it is there?")
 
 
 def _just_ahead(pose: Any) -> Goal:

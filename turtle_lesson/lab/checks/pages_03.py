@@ -8,7 +8,7 @@ from typing import Any
 
 from ..words import number, point, turned
 from . import navigation as nav
-from .assertions import learner_function, no_answer, no_errors, node, offers, publishes, returns, told
+from .assertions import learner_function, no_errors, node, offers, publishes, returns
 from .navigation import MIDDLE, NEAR, Goal, Way, ask_for, ask_soon_for, away, come_to_rest, drive, driven, put, where
 from .probe import Answer, Probe, remembered
 from .registry import Expectation, check, expectation
@@ -66,7 +66,7 @@ def simple_navigator() -> list[Expectation]:
 def _takes(probe: Probe, way: Way, wanted: float) -> Seen:
     it = drive(probe, way)
     if it.answer.response is None:
-        return no_answer(probe, f"no answer in {nav.LONGEST:g} s")
+        return probe.no_answer(f"no answer in {nav.LONGEST:g} s")
     said, took = float(it.response.time_taken), it.answer.seconds
     seen = f"time_taken is {number(said)} s, and the answer came after {number(took)} s"
     step = "Which distance did your node calculate, from where, and which time follows from it at 0.5 m/s?"
@@ -246,7 +246,7 @@ def _answers_meanwhile(probe: Probe) -> Seen:
     answer = probe.ask("/navigator/list_parameters", "rcl_interfaces/srv/ListParameters", 1.0)
     probe.wait_for(first, 30.0)
     if answer.response is None:
-        return no_answer(probe, "its parameters were not told within 1 s")
+        return probe.no_answer("its parameters were not told within 1 s")
     return Seen(True, "its parameters were told while it drove")
 
 
@@ -293,8 +293,8 @@ def _crowd(probe: Probe) -> tuple[Answer | None, list[Answer], Any]:
 def _refused(probe: Probe, index: int) -> Seen:
     _, others, _ = _crowd(probe)
     if others[index].response is None:
-        return no_answer(probe, f"no answer to {point(*OTHERS[index][:2])} within 0.5 s")
-    return Seen(not others[index].response.success, told(others[index]), GUARD)
+        return probe.no_answer(f"no answer to {point(*OTHERS[index][:2])} within 0.5 s")
+    return Seen(not others[index].response.success, others[index].told, GUARD)
 
 
 def _first_reached(probe: Probe) -> Seen:
@@ -306,7 +306,7 @@ def _first_reached(probe: Probe) -> Seen:
 def _first_answered(probe: Probe) -> Seen:
     first, _, _ = _crowd(probe)
     if first is None:
-        return no_answer(probe, "no answer within 15 s")
+        return probe.no_answer("no answer within 15 s")
     seen = f"success is {first.response.success}, time_taken {number(first.response.time_taken)} s"
     return Seen(bool(first.response.success), seen, GUARD)
 
@@ -315,7 +315,7 @@ def _accepted_again(probe: Probe) -> Seen:
     _crowd(probe)
     answer = ask_for(probe, (5.0, 5.0, 0.0), 15.0)
     if answer.response is None:
-        return no_answer(probe, "no answer within 15 s")
+        return probe.no_answer("no answer within 15 s")
     end = where(probe)
     seen = f"success is {answer.response.success}, with the turtle at {point(end.x, end.y)}"
     return Seen(bool(answer.response.success) and away(end, (5.0, 5.0)) <= NEAR, seen, GUARD)

@@ -8,19 +8,7 @@ from typing import Any
 
 from ..recording import WORLD
 from ..words import angle, listed, number, point, turned
-from .assertions import (
-    get_parameter,
-    no_answer,
-    no_errors,
-    node,
-    parameter,
-    publishes,
-    rate,
-    rate_follows,
-    set_parameter,
-    some,
-    told,
-)
+from .assertions import get_parameter, no_errors, node, parameter, publishes, rate, rate_follows, set_parameter, some
 from .navigation import COMMAND_TYPE, COMMANDS, NAVIGATE, POSE, POSE_TYPE, ask_for, away, where
 from .page_04 import RUN, STATUS, STATUS_TYPE
 from .page_05 import SCAN, SCAN_TYPE
@@ -129,11 +117,11 @@ def _gives_up(probe: Probe, name: str, seconds: float) -> Seen:
     x, y = max(itertools.product((1.0, round(WORLD - 1.0, 1)), repeat=2), key=lambda corner: away(pose, corner))
     answer = ask_for(probe, (x, y, 0.0), 25.0)
     if answer.response is None:
-        return no_answer(probe, "the goal was never answered")
+        return probe.no_answer("the goal was never answered")
     step = f"At each step: how long has this goal been under way, and how long may it take, according to {name}?"
     # two steps of a navigator at 10 Hz, and a little
     good = not answer.response.success and abs(answer.seconds - seconds) <= 0.25
-    return Seen(good, told(answer), hinted(step, 2))
+    return Seen(good, answer.told, hinted(step, 2))
 
 
 SIDES = {"slow": 5, "fast": 20}

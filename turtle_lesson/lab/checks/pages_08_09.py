@@ -6,7 +6,7 @@ from typing import Any
 
 from ..troubles.cases import current_expectations, expectations_of
 from ..words import number, point
-from .assertions import gaps_of, get_parameter, no_answer, no_errors, node, offers, publishes, rate, set_parameter, told
+from .assertions import gaps_of, get_parameter, no_errors, node, offers, publishes, rate, set_parameter
 from .navigation import NAVIGATE, NEAR, ask_for, away, where
 from .probe import Answer, Heard, Probe, remembered
 from .registry import Expectation, check, expectation
@@ -105,7 +105,7 @@ def _works(probe: Probe) -> Seen:
 
 def _unanswered(probe: Probe) -> Seen:
     """No answer came: the learner's error, the callback that has not returned, or else what may hold it up."""
-    seen = no_answer(probe, f"no answer in {LONGEST:g} s")
+    seen = probe.no_answer(f"no answer in {LONGEST:g} s")
     step = "What does the callback await, and is the callback group free in which it would come? Does it return the response?"
     return seen._replace(advice=hinted(step, 2))
 
@@ -172,7 +172,7 @@ def _answers_from_home(probe: Probe) -> Seen:
     answer, _ = _trip(probe)
     if answer.response is None:
         return _unanswered(probe)
-    return Seen(answer.response.success is True, told(answer), PASSED_ON)
+    return Seen(answer.response.success is True, answer.told, PASSED_ON)
 
 
 def _is_home(probe: Probe) -> Seen:

@@ -26,7 +26,7 @@ from ...turtlesim.obstacles import Box, Circle
 from ..graph import node_names, of_node, others, owner, servers
 from ..recording import NANOSECONDS
 from ..words import listed, number
-from .results import ENDLESS, CannotLook, Stopped, in_words, never_returned, unreturned
+from .results import ENDLESS, CannotLook, Seen, Stopped, in_words, never_returned, unreturned
 
 if TYPE_CHECKING:
     from ...session.check_target import CheckTarget
@@ -70,6 +70,11 @@ class Answer:
     def seconds(self) -> float:
         """Robot time from the request to the response."""
         return self.answered - self.asked
+
+    @property
+    def told(self) -> str:
+        """What it says of its success, and when it came."""
+        return f"success is {self.response.success} after {number(self.seconds)} s"
 
 
 def interface(type_name: str) -> Any:
@@ -296,6 +301,13 @@ class Probe:
     def unreturned(self) -> str:
         """The callbacks that are not done at this moment, with the line that each is in; "" if there is none."""
         return "; ".join(unreturned(self.target.strands))
+
+    def no_answer(self, words: str) -> Seen:
+        """What is said where a request was not answered: the learner's error comes first, or where its callback still is."""
+        self.raise_error()
+        if waiting := self.unreturned():
+            return Seen(False, f"{words}; {waiting}", "What does the callback wait for?")
+        return Seen(False, words, "Does the callback end with `return response`?")
 
     # -- acting ------------------------------------------------------------------------------------------------------
 

@@ -13,22 +13,7 @@ from ...learner.story import PAGES
 from ...ros.sim.errors import learners_frames
 from ..words import suggestion
 from .probe import Probe
-from .results import (
-    BAD,
-    GOOD,
-    NO_ERROR,
-    OPEN,
-    STOP_ADVICE,
-    STOPPED,
-    Advice,
-    CannotLook,
-    CheckResult,
-    Row,
-    Seen,
-    Stopped,
-    in_words,
-    row_of,
-)
+from .results import NO_ERROR, Advice, CannotLook, CheckResult, Row, Seen, Stopped, in_words, row_of
 
 if TYPE_CHECKING:
     from ...session.check_target import CheckTarget
@@ -139,8 +124,8 @@ def run(check: Check, target: CheckTarget) -> CheckResult:
     began = target.now
     if target.ended:
         step = "Use the lesson that start() returned last, or run the set-up cell again."
-        rows = [Row(BAD, "a world to look at", "it was closed by a later start()", Advice(step, step))]
-        rows += [Row(OPEN, each.expected, _because("the world has ended")) for each in check.expectations]
+        rows = [Seen(False, "it was closed by a later start()", Advice(step, step)).row("a world to look at")]
+        rows += [Row.unseen(each.expected, "the world has ended") for each in check.expectations]
     else:
         with Probe(target, check.limit) as probe:
             rows = _with_errors([_look(each, probe) for each in check.expectations], probe)
@@ -150,34 +135,24 @@ def run(check: Check, target: CheckTarget) -> CheckResult:
 
 def _look(expectation: Expectation, probe: Probe) -> Row:
     try:
-        seen = Seen(*expectation.look(probe))
+        return expectation.look(probe).row(expectation.expected)
     except Stopped:
-        return Row(OPEN, expectation.expected, _because("your code was stopped"))
+        return Row.unseen(expectation.expected, "your code was stopped")
     except CannotLook as reason:
-        return Row(OPEN, expectation.expected, _because(str(reason)))
+        return Row.unseen(expectation.expected, str(reason))
     except Exception as error:  # whatever a learner's classes may do
         if learners_frames(error.__traceback__):
             return row_of(error, expectation.expected)
-        return Row(BAD, expectation.expected, f"looking at it raised {in_words(error)}", Advice(direction=ODD))
-    if seen.good:
-        return Row(GOOD, expectation.expected, seen.words)
-    advice = seen.advice if isinstance(seen.advice, Advice) else Advice(direction=seen.advice)
-    return Row(BAD, expectation.expected, seen.words, advice)
+        return Seen(False, f"looking at it raised {in_words(error)}", ODD).row(expectation.expected)
 
 
 def _with_errors(rows: list[Row], probe: Probe) -> list[Row]:
     """The rows with the learner's own error first, since it explains the others; nothing is added to a good result."""
     if probe.stopped:
-        return [
-            Row(STOPPED, "every callback returns", probe.stopped, STOP_ADVICE),
-            *(row for row in rows if row.mark != STOPPED),
-        ]
+        first = Row.stopped("every callback returns", probe.stopped)
+        return [first, *(row for row in rows if row.mark != first.mark)]
     error = next(iter(probe.errors()), None)
     if error is None or all(row.good for row in rows):
         return sorted(rows, key=lambda row: not row.trace)
     first = row_of(error, NO_ERROR)
     return [first, *(row for row in rows if row.expected != NO_ERROR and row.trace != first.trace)]
-
-
-def _because(reason: str) -> str:
-    return f"not looked at, because {reason}"

@@ -57,14 +57,6 @@ def hinted(direction: str, hint: int | str) -> Advice:
     return Advice(direction=direction, hint=f"Open Hint {hint} under the exercise." if isinstance(hint, int) else hint)
 
 
-class Seen(NamedTuple):
-    """What was seen: whether it is as expected, in words, and advice if it is not; a plain text is the direction."""
-
-    good: bool
-    words: str
-    advice: str | Advice = ""
-
-
 @dataclass(frozen=True, slots=True)
 class Row:
     """One line of a result."""
@@ -81,6 +73,31 @@ class Row:
     def good(self) -> bool:
         """Whether it is as expected."""
         return self.mark == GOOD
+
+    @staticmethod
+    def unseen(expected: str, reason: str) -> Row:
+        """The row of an expectation that could not be looked at."""
+        return Row(OPEN, expected, f"not looked at, because {reason}")
+
+    @staticmethod
+    def stopped(expected: str, where: str) -> Row:
+        """The row that says where the learner's code was stopped."""
+        return Row(STOPPED, expected, where, STOP_ADVICE)
+
+
+class Seen(NamedTuple):
+    """What was seen: whether it is as expected, in words, and advice if it is not; a plain text is the direction."""
+
+    good: bool
+    words: str
+    advice: str | Advice = ""
+
+    def row(self, expected: str) -> Row:
+        """The row of an expectation."""
+        if self.good:
+            return Row(GOOD, expected, self.words)
+        advice = self.advice if isinstance(self.advice, Advice) else Advice(direction=self.advice)
+        return Row(BAD, expected, self.words, advice)
 
 
 NO_ERROR = "no error meanwhile"
@@ -274,7 +291,7 @@ def in_words(error: BaseException) -> str:
 def row_of(error: BaseException, expected: str) -> Row:
     """The row about an error of the learner's code."""
     if isinstance(error, ENDLESS):
-        return Row(STOPPED, expected, never_returned(error), STOP_ADVICE)
+        return Row.stopped(expected, never_returned(error))
     return Row(BAD, expected, in_words(error), READ, _trace_of(error))
 
 
