@@ -187,7 +187,7 @@ def test_a_wrong_command_says_so_where_it_prints(
         ("['ros2', 'run', 'demo', 'listner']", "No executable found", "Did you mean 'listener'?"),
         ("['ros2', 'run', 'demmo', 'x']", "\"package 'demmo' not found", "Did you mean 'demo'?"),
         ("[]", "ExecuteProcess expected a command in 'cmd', got none", "cmd=['ros2', 'topic', 'list']"),
-        ("'ros2 topic list'", "ExecuteProcess expected a list for 'cmd', got 'ros2 topic list'", "shell=True"),
+        ("'ros2 topic list'", "expected a list for 'cmd', got 'ros2 topic list'", "shell=True"),
     ],
 )
 def test_what_cannot_be_run_is_refused_with_advice(begin: Launch, cmd: str, reason: str, hint: str) -> None:

@@ -76,8 +76,8 @@ def is_page(place: Path) -> bool:
 
 # -- launch asks launching ---------------------------------------------------------------------------------------------
 
-launch_service: Callable[[], LaunchService] = _late("launching.service", "service_here")
-"""What carries out a program's own `LaunchService`."""
+launch_service: Callable[[World], LaunchService] = _late("launching.service", "LaunchService")
+"""What carries out a program's own `LaunchService` in a world."""
 program_of_command: Callable[..., Program] = _late("launching.commands", "program")
 """What the words of an `ExecuteProcess` run."""
 output_of_command: Callable[[str], str] = _late("launching.commands", "output_of")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import threading
+from contextlib import suppress
 from functools import partial
 from typing import Any
 
@@ -153,9 +154,7 @@ def turtle_teleop_key() -> None:
     print(HELP)
     keyboard = ProgramInput(current_process())
     keyboard.raw = True
-    try:
+    with suppress(KeyboardInterrupt):
         while (key := keyboard.read(1)) not in ("q", ""):
             node.do(key + keyboard.take(2) if key == "\x1b" else key)
-    except KeyboardInterrupt:
-        pass
     rclpy.try_shutdown()

@@ -27,7 +27,7 @@ from launch.launch_description_sources import AnyLaunchDescriptionSource
 from ..ament.index import LaunchedPackages, seeing
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
-from ..runtime.world import World, current_world, run_for
+from ..runtime.world import World, run_for
 from ..sim.process import Process
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
@@ -237,11 +237,6 @@ class LaunchService:
                 self.context._pop("_locals")
         if isinstance(event, Shutdown):
             self._end_processes(said=not event.due_to_sigint)
-
-
-def service_here() -> LaunchService:
-    """A launch in the world that the running code lives in, for a program's own `LaunchService`."""
-    return LaunchService(current_world())
 
 
 class LaunchHandle:

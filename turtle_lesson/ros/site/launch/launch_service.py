@@ -27,7 +27,7 @@ class LaunchService:
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
-        self._launch: RunningLaunch = hooks.launch_service()
+        self._launch: RunningLaunch = hooks.launch_service(hooks.current_world())
         self.context: LaunchContext = self._launch.context
         self.context.argv = list(argv or [])
         self.context.noninteractive = noninteractive

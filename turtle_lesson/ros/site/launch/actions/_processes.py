@@ -74,6 +74,14 @@ def command_line(name: str, *, optional: bool = False) -> Reader:
     return read
 
 
+def listed(name: str, words: Iterable[SomeSubstitutionsType] | None) -> list[SomeSubstitutionsType]:
+    """The words of the argument of a name, which is a list. Raises TypeError if it is a text."""
+    if isinstance(words, str | Substitution):
+        hint = f"Write {name}=['one', 'two'], a text for each word; for cmd=['ros2 topic list'] add shell=True."
+        raise explained(TypeError(f"expected a list for '{name}', got {words!r}"), hint)
+    return list(words or [])
+
+
 Environment = (
     Mapping[SomeSubstitutionsType, SomeSubstitutionsType]
     | Iterable[tuple[SomeSubstitutionsType, SomeSubstitutionsType]]
@@ -127,10 +135,7 @@ class ExecuteProcess(Action):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
-        if isinstance(cmd, str):
-            error = TypeError(f"ExecuteProcess expected a list for 'cmd', got {cmd!r}")
-            raise explained(error, "Write cmd=['ros2', 'topic', 'list'], or cmd=['ros2 topic list'] with shell=True.")
-        self._words = [pieces(word) for word in cmd]
+        self._words = [pieces(word) for word in listed("cmd", cmd)]
         self._prefix = pieces(prefix or "")
         self._name = pieces(name or "")
         self._env = env

@@ -9,10 +9,10 @@ from typing import Any, ClassVar, NoReturn
 
 import yaml
 from launch import Action, Condition, LaunchContext, logging
-from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
+from launch._entities import SomeSubstitutionsType, explained, text_of
 from launch._entities import normalize_to_list_of_substitutions as pieces
 from launch.actions import ExecuteProcess
-from launch.actions._processes import Program, command_line
+from launch.actions._processes import Program, command_line, listed
 from launch.frontend import Entity, attribute, expose_action, pair, tags
 from launch.substitutions import SubstitutionFailure
 from rclpy.validate_namespace import validate_namespace
@@ -89,16 +89,9 @@ class Node(ExecuteProcess):
             what = "'Node' expected 'parameters' to be one of [<class 'list'>]"
             what += f", but got '{parameters}' of type '{type(parameters)}'"
             raise explained(TypeError(what), "Put it into a list: parameters=[{…}]")
-        for name_given, words in (("arguments", arguments), ("ros_arguments", ros_arguments)):
-            if isinstance(words, str | Substitution):
-                raise TypeError(
-                    f"Node expected a list for '{name_given}', got {words!r}; write {name_given}=[{words!r}]"
-                )
         self.__in_package = None if package is None else ExecutableInPackage(executable, package)
-        program = self.__in_package or executable
-        super().__init__(
-            cmd=[program, *(arguments or []), "--ros-args", *(ros_arguments or [])], name=exec_name, **kwargs
-        )
+        words = [*listed("arguments", arguments), "--ros-args", *listed("ros_arguments", ros_arguments)]
+        super().__init__(cmd=[self.__in_package or executable, *words], name=exec_name, **kwargs)
         self.node_package = package
         self.node_executable = executable
         self.__node_name = name
