@@ -461,6 +461,7 @@ def test_handlers_of_start_output_and_exit(tmp_path: Path, capsys: pytest.Captur
     world.run(0)
     assert screen(capsys) == ["[INFO] [launch.user]: heard beep"]
     world.processes[0].end(3)
+    world.run(0)
     assert screen(capsys)[1:] == [
         "[INFO] [launch.user]: navigator-1 gave 3",
         "[INFO] [status_monitor-2]: process started with pid [1002]",
@@ -476,6 +477,7 @@ def test_a_required_node_takes_the_others_with_it(tmp_path: Path, capsys: pytest
     )
     capsys.readouterr()
     world.processes[1].end(1)
+    world.run(0)
     assert screen(capsys) == [
         "[ERROR] [navigator-2]: process has died [pid 1002, exit code 1, cmd "
         f"'{LIBEXEC}/navigator --ros-args -r __node:=b'].",

@@ -30,7 +30,6 @@ from ..idl.names import did_you_mean
 from ..runtime.world import World, run_for
 from ..sim.process import Process
 from ..sim.simulation import NANOSECONDS
-from ..sim.strand import running_strand
 from .errors import LaunchError, as_launch_error, learners_cause
 from .processes import RosHelper, RunningProcess
 
@@ -74,10 +73,7 @@ class LaunchService:
             self._ending.append(process)
             return
         process.report_end()
-        if running_strand() is None:
-            self.carry_on(process.after_end)
-        else:  # still within the dying process: leave it first
-            self.world.sim.call_later(0, self.carry_on, process.after_end)
+        self.world.sim.call_later(0, self.carry_on, process.after_end)  # leave the dying process first
 
     def _end_processes(self, *, said: bool) -> None:
         """Interrupt all processes, and see to it that they end. How they ended is said after all their output."""
@@ -156,9 +152,6 @@ class LaunchService:
 
     def carry_on(self, function: Callable[[], None]) -> None:
         """Do something that came later; an error in it ends the launch and is printed, as on a robot."""
-        if self._settling:
-            function()
-            return
         with self._inside():
             try:
                 function()
@@ -178,7 +171,6 @@ class LaunchService:
     def shut_down(self, reason: str, *, due_to_sigint: bool = False) -> None:
         """End the whole launch."""
         self._waiting.clear()
-        self._settling = False
         self.context._event_queue.append(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
         self.carry_on(lambda: None)
 
