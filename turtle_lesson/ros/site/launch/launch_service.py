@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from turtle_lesson.ros import hooks
 from turtle_lesson.ros.sim.strand import running_strand
@@ -12,9 +11,6 @@ from turtle_lesson.ros.sim.strand import running_strand
 from ._context import Event, LaunchContext
 from ._entities import LaunchDescription
 from .events import IncludeLaunchDescription
-
-if TYPE_CHECKING:
-    from turtle_lesson.ros.launching.service import LaunchService as RunningLaunch
 
 LOOKS = 0.01
 """How often, in s of robot time, it looks whether the launch has ended."""
@@ -27,7 +23,7 @@ class LaunchService:
     """
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
-        self._launch: RunningLaunch = hooks.launch_service(hooks.current_world())
+        self._launch = hooks.launch_service(hooks.current_world())
         self.context: LaunchContext = self._launch.context
         self.context.argv = list(argv or [])
         self.context.noninteractive = noninteractive

@@ -71,11 +71,8 @@ class OnStateTransition(EventHandler):
         matcher: Callable[[Event], bool] | None = None,
         **kwargs: Any,
     ) -> None:
-        if target_lifecycle_node is not None and not isinstance(target_lifecycle_node, LifecycleNode):
-            raise RuntimeError(
-                'OnStateTransition requires a "LifecycleNode" action as the target, '
-                "target_lifecycle_node is not a node type."
-            )
+        if not isinstance(target_lifecycle_node, LifecycleNode | None):
+            raise RuntimeError('OnStateTransition requires a "LifecycleNode" action as the target')
 
         def fits(event: Event) -> bool:
             return (

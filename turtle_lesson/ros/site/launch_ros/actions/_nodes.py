@@ -141,7 +141,11 @@ class Node(ExecuteProcess):
                 for name, value in parameters_in(context, entry):
                     words += self._words_for(name, value)
             else:
-                words += ["--params-file", str(_parameter_file(context, entry))]
+                path = (entry if isinstance(entry, ParameterFile) else ParameterFile(entry)).evaluate(context)
+                if not path.is_file():
+                    text = f"Parameter file path is not a file: {shown_path(str(path))}"
+                    logging.get_logger("launch_ros.actions.node").warning(text)
+                words += ["--params-file", str(path)]
         return words
 
     def _words_for(self, name: str, value: Any) -> list[str]:
@@ -166,15 +170,6 @@ class Node(ExecuteProcess):
             error = SubstitutionFailure(f"executable '{argv[0]}' is not a file")
             raise explained(error, "Did you leave package='…' out?")
         return Program(path.resolve(), argv, shown)
-
-
-def _parameter_file(context: LaunchContext, entry: Any) -> Path:
-    file = entry if isinstance(entry, ParameterFile) else ParameterFile(entry)
-    path = file.evaluate(context)
-    if not path.is_file():
-        text = f"Parameter file path is not a file: {shown_path(str(path))}"
-        logging.get_logger("launch_ros.actions.node").warning(text)
-    return path
 
 
 # -- what holds for all nodes that follow: parameters, remappings and namespaces. It is a launch configuration, since the end of
