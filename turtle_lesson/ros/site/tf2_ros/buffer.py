@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from time import sleep
 from typing import Any
 
@@ -38,7 +37,7 @@ class Buffer(BufferCore):
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
         super().__init__(cache_time)
         self.registration = TransformRegistration()
-        self._waiting: list[tuple[Future, Callable[[], None]]] = []
+        self._waiting: list[tuple[Future, Way]] = []
         if node is not None:
             self.srv = node.create_service(FrameGraph, "tf2_frames", self._get_frames)
             self.clock = node.get_clock()
@@ -56,10 +55,14 @@ class Buffer(BufferCore):
 
     def _set(self, transform: TransformStamped, authority: str, span: int | None) -> None:
         super()._set(transform, authority, span)
-        if self._waiting:
-            for _, try_again in self._waiting:
-                try_again()
-            self._waiting = [(future, again) for future, again in self._waiting if not _is_over(future)]
+        waiting, self._waiting = self._waiting, []
+        for future, way in waiting:
+            if future.done() or future.cancelled():
+                continue
+            if self._can(way)[0]:
+                future.set_result(self._look_up(way))
+            else:
+                self._waiting.append((future, way))
 
     def transform(self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE) -> Any:
         """Stamped data as seen from the target frame, at the time of its stamp.
@@ -118,16 +121,11 @@ class Buffer(BufferCore):
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future:
         """A future whose result is the transform, as soon as it can be looked up."""
-        way = (target_frame, source_frame, nanoseconds(time))
-        future = Future()
-
-        def try_again() -> None:
-            if not _is_over(future) and self._can(way)[0]:
-                future.set_result(self._look_up(way))
-
-        try_again()
-        if not _is_over(future):
-            self._waiting.append((future, try_again))
+        future, way = Future(), (target_frame, source_frame, nanoseconds(time))
+        if self._can(way)[0]:
+            future.set_result(self._look_up(way))
+        else:
+            self._waiting.append((future, way))
         return future
 
     def _wait(self, timeout: Duration, *ways: Way) -> tuple[bool, str]:
@@ -143,7 +141,3 @@ class Buffer(BufferCore):
         while clock.now() < end and not self._can(*ways)[0]:
             sleep(PAUSE)
         return self._can(*ways)
-
-
-def _is_over(future: Future) -> bool:
-    return future.done() or future.cancelled()
