@@ -77,11 +77,8 @@ class ParameterEventHandler:
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
         """The rcl_interfaces/msg/Parameter of a name in an event, if it is new or changed and of this node; or None."""
-        if event.node == node_name:
-            for parameter in chain(event.new_parameters, event.changed_parameters):
-                if parameter.name == parameter_name:
-                    return parameter
-        return None
+        found = (each for each in chain(event.new_parameters, event.changed_parameters) if each.name == parameter_name)
+        return next(found, None) if event.node == node_name else None
 
     @staticmethod
     def get_parameters_from_event(event: Any) -> Iterable[Any]:

@@ -36,12 +36,12 @@ class State(NamedTuple):
 
 
 class Transition(NamedTuple):
-    """A transition: its number, its label, and the states that it leads from and to."""
+    """A transition: its number, its label, and the labels of the states that it leads from and to."""
 
     id: int
     label: str
-    start: State
-    goal: State
+    start: str
+    goal: str
 
 
 _AT_REST = ["unknown", "unconfigured", "inactive", "active", "finalized"]
@@ -49,26 +49,22 @@ _ON_THE_WAY = ["configuring", "cleaningup", "shuttingdown", "activating", "deact
 STATES = {label: State(number, label) for number, label in (*enumerate(_AT_REST), *enumerate(_ON_THE_WAY, 10))}
 
 
-def _transition(number: int, label: str, start: str, goal: str) -> Transition:
-    return Transition(number, label, STATES[start], STATES[goal])
-
-
 def _outcomes(number: int, state: str, success: str, failure: str, error: str = "errorprocessing") -> list[Transition]:
     """How a state in which a callback runs is left."""
     goals = {"success": success, "failure": failure, "error": error}
-    return [_transition(number + i, f"transition_{how}", state, goal) for i, (how, goal) in enumerate(goals.items())]
+    return [Transition(number + i, f"transition_{how}", state, goal) for i, (how, goal) in enumerate(goals.items())]
 
 
 TRANSITIONS = [
-    _transition(1, "configure", "unconfigured", "configuring"),
+    Transition(1, "configure", "unconfigured", "configuring"),
     *_outcomes(10, "configuring", "inactive", "unconfigured"),
-    _transition(2, "cleanup", "inactive", "cleaningup"),
+    Transition(2, "cleanup", "inactive", "cleaningup"),
     *_outcomes(20, "cleaningup", "unconfigured", "inactive"),
-    _transition(3, "activate", "inactive", "activating"),
+    Transition(3, "activate", "inactive", "activating"),
     *_outcomes(30, "activating", "active", "inactive"),
-    _transition(4, "deactivate", "active", "deactivating"),
+    Transition(4, "deactivate", "active", "deactivating"),
     *_outcomes(40, "deactivating", "inactive", "active"),
-    *(_transition(5 + i, "shutdown", state, "shuttingdown") for i, state in enumerate(_AT_REST[1:4])),
+    *(Transition(5 + i, "shutdown", state, "shuttingdown") for i, state in enumerate(_AT_REST[1:4])),
     *_outcomes(50, "shuttingdown", "finalized", "finalized"),
     *_outcomes(60, "errorprocessing", "unconfigured", "finalized", "finalized"),
 ]
@@ -84,7 +80,7 @@ class StateMachine:
     @property
     def available_transitions(self) -> list[Transition]:
         """The transitions that lead out of the state that it is in."""
-        return [each for each in TRANSITIONS if each.start == self.current_state]
+        return [each for each in TRANSITIONS if each.start == self.current_state.label]
 
     def find(self, wanted: int | str) -> Transition | None:
         """The transition of a number or label, if it is possible now; a warning is logged if it is not."""
@@ -104,8 +100,8 @@ class StateMachine:
             possible = ", ".join(f"{each.label} [{each.id}]" for each in self.available_transitions) or "nothing"
             error.add_note(f"The node is {self.current_state.label}; possible from there: {possible}.")
             raise error
-        self.current_state = transition.goal
-        self._notify(transition.start, transition.goal)
+        self.current_state = STATES[transition.goal]
+        self._notify(STATES[transition.start], self.current_state)
 
 
 class LifecycleNodeMixin(ManagedEntity):
@@ -270,6 +266,6 @@ def _description(transition: Transition) -> Any:
 
     message = TransitionDescription()
     message.transition.id, message.transition.label = transition.id, transition.label
-    message.start_state.id, message.start_state.label = transition.start
-    message.goal_state.id, message.goal_state.label = transition.goal
+    message.start_state.id, message.start_state.label = STATES[transition.start]
+    message.goal_state.id, message.goal_state.label = STATES[transition.goal]
     return message
