@@ -55,14 +55,11 @@ class Buffer(BufferCore):
 
     def _set(self, transform: TransformStamped, authority: str, span: int | None) -> None:
         super()._set(transform, authority, span)
-        waiting, self._waiting = self._waiting, []
-        for future, way in waiting:
-            if future.done() or future.cancelled():
-                continue
-            if self._can(way)[0]:
+        for future, way in self._waiting:
+            if not (future.done() or future.cancelled()) and self._can(way)[0]:
                 future.set_result(self._look_up(way))
-            else:
-                self._waiting.append((future, way))
+        if self._waiting:
+            self._waiting = [each for each in self._waiting if not (each[0].done() or each[0].cancelled())]
 
     def transform(self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE) -> Any:
         """Stamped data as seen from the target frame, at the time of its stamp.
