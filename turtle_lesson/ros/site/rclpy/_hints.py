@@ -121,7 +121,6 @@ _TAKEN = {
         " InvalidParameterValueException InvalidTopicNameException NodeNameNonExistentError"
         " ParameterAlreadyDeclaredException ParameterImmutableException ParameterNotDeclaredException"
         " ParameterUninitializedException",
-        "rclpy.executors": "Executor",
         "rclpy.timer": "Rate",
         "rclpy.type_support": "MsgT SrvT",
         "typing": "Any Callable Dict Iterator List Optional Sequence Tuple Type TypeVar Union",

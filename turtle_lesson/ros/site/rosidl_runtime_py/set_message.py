@@ -55,11 +55,18 @@ class _Filling:
         types = get_message_slot_types(message)
         for name, value in values.items():
             if not isinstance(name, str):
-                error = TypeError(f"attribute name must be string, not '{type(name).__name__}'")
-                error.add_note(f"YAML reads it as {str(name).lower()}: put the field's name in quotes, such as 'off'.")
-                raise error
+                no_text = TypeError(f"attribute name must be string, not '{type(name).__name__}'")
+                no_text.add_note(
+                    f"YAML reads it as {str(name).lower()}: put the field's name in quotes, such as 'off'."
+                )
+                raise no_text
             if name not in types:
-                raise _no_such_field(message, name, list(types))
+                error = AttributeError(f"'{type(message).__name__}' object has no attribute '{name:.200}'")
+                hint = did_you_mean(name[:100], types) or f"The fields are: {', '.join(types) or 'none'}."
+                if name.partition(":")[0] in types:
+                    hint = f"YAML wants a space after the colon: {name.replace(':', ': ', 1)}"
+                error.add_note(hint)
+                raise error
             self._set(message, name, value, types[name])
 
     def _set(self, message: Any, name: str, value: Any, type_: Any) -> None:
@@ -105,12 +112,3 @@ class _Filling:
         for message, value in zip(made, values, strict=True):
             self.fill(message, value)
         return made
-
-
-def _no_such_field(message: Any, name: str, known: list[str]) -> AttributeError:
-    error = AttributeError(f"'{type(message).__name__}' object has no attribute '{name:.200}'")
-    hint = did_you_mean(name[:100], known) or f"The fields are: {', '.join(known) or 'none'}."
-    if ":" in name and name.partition(":")[0] in known:
-        hint = f"YAML wants a space after the colon: {name.replace(':', ': ', 1)}"
-    error.add_note(hint)
-    return error
