@@ -59,9 +59,6 @@ class Entity:
         error = TypeError(f"Expected a dict or list, got {type(self._written)}")
         raise explained(error, f"Write the attributes of {self.type_name} below it, each on a line of its own.")
 
-    def _entity(self, name: Any, inside: Any, line: int) -> Entity:
-        return Entity(str(name), inside, (self.place[0], line))
-
     @property
     def children(self) -> list[Entity]:
         """The tags in it. In YAML they are its list, or the list called `children` in its mapping."""
@@ -79,7 +76,7 @@ class Entity:
             [(name, inside)] = item.items()
             if self._inside.in_xml is not None:
                 self._asked.add(name)
-            found.append(self._entity(name, inside, item.line))
+            found.append(Entity(str(name), inside, (self.place[0], item.line)))
         return found
 
     def nested(self, name: str) -> list[Entity]:
@@ -89,7 +86,7 @@ class Entity:
         if not isinstance(given, list) or not all(isinstance(item, Mapping) for item in given):
             error = TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
             raise explained(error, f"Write each {name} as a tag of its own; in YAML it begins with a hyphen.")
-        return [self._entity(name, item, item.line) for item in given]
+        return [Entity(name, item, (self.place[0], item.line)) for item in given]
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """An attribute's value.

@@ -20,14 +20,11 @@ from launch import LaunchContext
 from launch._entities import SomeSubstitutionsType, Substitution, explained, text_of
 from launch._entities import normalize_to_list_of_substitutions as pieces
 from launch.frontend import Entity, attribute, parse_substitution, tags
-from launch.utilities import perform_text_as
+from launch.utilities import SCALARS, perform_text_as
 
 from turtle_lesson.ros.runtime.bounded_yaml import safe_load
 
 __all__ = ["ParameterFile", "ParameterValue"]
-
-
-PLAIN = (bool, int, float, str)
 
 
 def parameters_in(context: LaunchContext, given: Mapping[Any, Any]) -> Iterator[tuple[str, Any]]:
@@ -49,7 +46,7 @@ def value_of(context: LaunchContext, value: Any) -> Any:
     """One value, substitutions performed. Raises TypeError if no ROS parameter can have it."""
     if isinstance(value, ParameterValue):
         return value.evaluate(context)
-    if isinstance(value, PLAIN):
+    if isinstance(value, SCALARS):
         return value
     if isinstance(value, Substitution):
         value = [value]
@@ -77,7 +74,7 @@ def uniform(items: list[Any]) -> list[Any]:
     kinds = {type(item) for item in items}
     if kinds == {int, float}:
         return [float(item) for item in items]
-    if len(kinds) == 1 and kinds <= set(PLAIN):
+    if len(kinds) == 1 and kinds <= set(SCALARS):
         return items
     raise TypeError(
         "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are bool, "
@@ -147,47 +144,38 @@ def file_for_this_launch(owner: object, name: str, text: str) -> Path:
 
 
 TYPES: dict[str, Any] = {
-    **{kind.__name__: kind for kind in PLAIN},
+    **{kind.__name__: kind for kind in SCALARS},
     "yaml": None,
-    **{f"list_of_{kind.__name__}": list[kind] for kind in PLAIN},  # type: ignore[valid-type]
+    **{f"list_of_{kind.__name__}": list[kind] for kind in SCALARS},  # type: ignore[valid-type]
 }
 """What the attribute `type` of a parameter can be."""
 
 
 def parameters(entity: Entity) -> list[Any] | None:
     """What `Node(parameters=…)` takes, from nested tags: files first, then one dictionary with all others."""
-    found = tags("param", _file_or_named)(entity) or []
+    found = tags("param", _parameter)(entity) or []
     named = {name: value for each in found if isinstance(each, dict) for name, value in each.items()}
     files = [each for each in found if isinstance(each, ParameterFile)]
     return [*files, named] if named else files
 
 
-def _file_or_named(param: Entity) -> ParameterFile | dict[Any, Any]:
-    """What one tag stands for; the errors have the real texts."""
-    file, name = attribute("from", optional=True)(param), param.get_attr("name", optional=True)
-    if file is not None and name is not None:
-        raise RuntimeError("name and from attributes are mutually exclusive")
-    if name is not None:
-        return _named(param)
-    if file is None:
-        raise ValueError("param Entity should have name or from attribute")
-    return ParameterFile(file, allow_substs=attribute("allow_substs", bool, optional=True)(param) or False)
-
-
-def _named(param: Entity) -> dict[Any, Any]:
-    """A name with its value, or with nested names."""
-    name = attribute("name")(param)
-    name = name if isinstance(name, str) else tuple(name)
+def _parameter(param: Entity) -> ParameterFile | dict[Any, Any]:
+    """What one tag stands for: a file, or a name with its value or with nested names."""
+    file, name = attribute("from", optional=True)(param), attribute("name", optional=True)(param)
+    if (file is None) == (name is None):
+        raise ValueError("param Entity should have either name or from attribute")
+    if file is not None:
+        return ParameterFile(file, allow_substs=attribute("allow_substs", bool, optional=True)(param) or False)
     type_name = param.get_attr("type", optional=True)
     if type_name is not None and type_name not in TYPES:
         raise ValueError(f"Unexpected type attribute `{type_name}`. It must be one of {list(TYPES)}")
     kind = None if type_name is None else TYPES[type_name]
-    value = attribute("value", kind, optional=True)(param)
-    nested = tags("param", _named)(param)
-    if value is not None and nested:
-        raise RuntimeError("param and value attributes are mutually exclusive")
+    value: Any = attribute("value", kind, optional=True)(param)
+    nested = tags("param", _parameter)(param)
+    if (value is None) == (nested is None):
+        raise ValueError("either a value attribute or nested params are needed")
     if nested:
-        return {name: {inner: value for each in nested for inner, value in each.items()}}
-    if value is None:
-        raise RuntimeError("either a value attribute or nested params are needed")
-    return {name: value if kind is None else ParameterValue(value, value_type=kind)}
+        value = {inner: inner_value for each in nested for inner, inner_value in each.items()}
+    elif kind is not None:
+        value = ParameterValue(value, value_type=kind)
+    return {name if isinstance(name, str) else tuple(name): value}
