@@ -112,7 +112,8 @@ def test_output_is_shown_line_by_line_and_its_rest_at_the_end(
     capsys.readouterr()
     process.stdout.write("hel")
     assert screen(capsys) == []
-    process.stdout.write("lo\nworld\nthe e")
+    process.stdout.write("lo\nworld\n")
+    process.stdout.write("the e")
     process.stderr.write("[INFO] [1800000000.000000000] [navigator]: here\n")
     process.stdout.write("nd")
     process.end(0)

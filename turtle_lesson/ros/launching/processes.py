@@ -43,34 +43,23 @@ class _Output(io.TextIOBase):
         self._process = process
         self._fd = fd
         self._shown = ("stdout" if fd == 1 else "stderr") in process.action._on_screen
-        self._line = ""
-        self._untold = ""
+        self._pending = ""
 
     def write(self, text: str) -> int:
-        """Take text; whole lines are shown at once."""
-        self._untold += text
-        if text.endswith("\n"):  # what one print() gives is told as one piece
-            self._tell()
-        *lines, self._line = (self._line + text).split("\n")
-        for line in lines:
-            self._show(line.removesuffix("\r"))
+        """Take text, and hand it on when it ends a line: what one print() gives is one piece."""
+        self._pending += text
+        if text.endswith("\n"):
+            self.finish()
         return len(text)
 
     def finish(self) -> None:
-        """Hand on what has no line end."""
-        self._tell()
-        if self._line:
-            self._show(self._line)
-        self._line = ""
-
-    def _show(self, line: str) -> None:
-        if self._shown:
-            self._process.service.line(f"[{self._process.name}] {line}")
-
-    def _tell(self) -> None:
-        text, self._untold = self._untold, ""
+        """Hand on what has been printed since the last time."""
+        text, self._pending = self._pending, ""
         if text:
             self._process.emit(ProcessIO, text=text.encode(), fd=self._fd)
+        for line in text.removesuffix("\n").split("\n") if text and self._shown else ():
+            whole = line.removesuffix("\r")
+            self._process.service.line(f"[{self._process.name}] {whole}")
 
 
 class RunningProcess:
