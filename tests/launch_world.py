@@ -50,6 +50,10 @@ class FakeProcess:
         self.stubborn = False
         self._on_exit = details["on_exit"]
 
+    @property
+    def alive(self) -> bool:
+        return self.exit_code is None
+
     def end(self, code: int) -> None:
         if self.exit_code is None:
             self.exit_code = code

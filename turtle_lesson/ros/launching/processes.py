@@ -69,13 +69,14 @@ class RunningProcess:
         self.service = service
         self.action = action
         self.name = action.name
-        self.process: Process | None = None
+        self.process: Process
         self._retries = 0
+        self.start()
 
     @property
     def alive(self) -> bool:
         """Whether it runs."""
-        return self.process is not None and self.process.exit_code is None
+        return self.process.alive
 
     @property
     def _is_python(self) -> bool:
@@ -122,7 +123,6 @@ class RunningProcess:
 
     def report_end(self) -> None:
         """Print how it ended."""
-        assert self.process is not None
         code = self.process.exit_code
         self.action.return_code = code
         if code == 0:
@@ -150,7 +150,7 @@ class RunningProcess:
         patience = perform_substitutions(self.service.context, self.action.sigterm_timeout)
 
         def terminate() -> None:
-            if self.process is None or not self.alive:
+            if not self.alive:
                 return
             how = f"'{patience}' seconds after receiving 'SIGINT', escalating to 'SIGTERM'"
             self.service.say("ERROR", self.name, f"process[{self.name}] failed to terminate {how}")

@@ -82,7 +82,7 @@ class LaunchService:
             process.announce("SIGINT")
         self._ending = []
         for process in alive:
-            if process.process is not None and process.alive:
+            if process.alive:
                 process.process.interrupt()
         ended, self._ending = self._ending, None
         for process in ended:
@@ -192,7 +192,6 @@ class LaunchService:
                 drawn = self.world.start_order
                 action = self._waiting.pop(0 if drawn is None else drawn.randrange(len(self._waiting)))
                 self.processes.append(RunningProcess(self, action))
-                self.processes[-1].start()
             else:
                 self._handle(self.context._event_queue.popleft())
 
