@@ -18,7 +18,7 @@ from ..runtime.files import BorrowedStream, CellOutput, FileOutput
 from ..runtime.world import World
 from ..sim.process import Output, Process
 from ..sim.simulation import Simulation
-from .arguments import printable
+from .arguments import cut
 
 SIGNALS = {"INT": 2, "TERM": 15, "KILL": 9}
 
@@ -82,9 +82,6 @@ def jobs(world: World) -> Jobs:
 
 # -- the streams of a cell and of a command --------------------------------------------------------------------------
 
-LONGEST = 1500
-"""How many characters of a line of stderr are shown: nobody reads on in a name of 10,000."""
-
 
 class _Stream(BorrowedStream):
     """A stream that prints into another one."""
@@ -122,17 +119,9 @@ def cell_streams() -> tuple[TextIO, CellErrors]:
 class Errors(_Stream):
     """A command's stderr: what was typed is repeated in it, so endless lines are cut and control characters named."""
 
-    _column = 0
-
     def write(self, text: str) -> int:
         """Print a text, made fit to be printed."""
-        for line in text.splitlines(keepends=True) if "\n" in text else [text]:
-            end = "\n" if line.endswith("\n") else ""
-            shown = printable(line.removesuffix("\n")[:LONGEST])
-            if self._column < LONGEST:
-                self._target.write(shown if self._column + len(line) <= LONGEST else f"{shown}…")
-            self._target.write(end)
-            self._column = 0 if end else self._column + len(line)
+        self._target.write("\n".join(map(cut, text.split("\n"))))
         return len(text)
 
 
