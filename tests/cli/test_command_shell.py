@@ -126,7 +126,6 @@ def test_any_text_is_taken_apart_or_refused(text: str) -> None:
         ("cat nope > x.txt 2>&1; cat x.txt", "cat: nope: No such file or directory\n"),
         ("touch b.msg a.msg c.srv; ls *.msg", "a.msg\nb.msg\n"),
         ("touch a.msg; echo *.nope 'a*' a*", "*.nope a* a.msg\n"),
-        ("mkdir -p a/b; ls -R a", "a:\nb\n\na/b:\n"),
         ("ros2 pkg list | grep -c ^", "0\n"),
         ("ros2 pkg list | grep turtlesim", "turtlesim\n"),
         ("echo a \\  \n  b", "a b\n"),
@@ -254,7 +253,7 @@ def test_mistakes_get_a_line(type_line, line: str, text: str) -> None:  # type: 
 
 def test_cd_goes_and_comes_back(type_line, folder: Path) -> None:  # type: ignore[no-untyped-def]
     assert type_line("mkdir -p a/b && cd a/b && pwd")[1] == f"{folder}/a/b\n"
-    assert type_line("cd ..; pwd; cd - ; pwd")[1].splitlines()[::2] == [f"{folder}/a", f"{folder}/a/b"]
+    assert type_line("cd ..; pwd; cd; pwd")[1].splitlines() == [f"{folder}/a", str(folder)]
 
 
 def test_a_folder_of_nearly_the_right_name_is_named(type_line) -> None:  # type: ignore[no-untyped-def]

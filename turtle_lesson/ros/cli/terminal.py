@@ -13,7 +13,6 @@ from ..idl.names import did_you_mean
 from ..launching import LaunchHandle
 from ..runtime import files
 from ..runtime.world import run_for
-from ..sim.errors import shown_path
 from ..sim.process import Process
 from .jobs import SIGNALS, Builtin, Terminal, export, jobs, options, printenv, send, unset
 
@@ -21,21 +20,16 @@ from .jobs import SIGNALS, Builtin, Terminal, export, jobs, options, printenv, s
 
 
 def cd(terminal: Terminal, words: list[str]) -> int:
-    """`cd folder`, `cd ..`, `cd -`, `cd`: change the current folder."""
+    """`cd folder`, `cd ..`, `cd`: change the current folder."""
     if len(words) > 1:
         raise ValueError("too many arguments: a folder's name with a space in it needs quotes")
     target = Path(words[0]) if words else files.home()
-    if words == ["-"]:
-        target = Path(os.environ.get("OLDPWD", "."))
-        terminal.say(shown_path(str(target)))
-    before = Path.cwd()
     if not target.is_dir():
         what, close = "Not a directory" if target.exists() else "No such file or directory", ""
         if len(str(target)) <= 200 and target.parent.is_dir():
             close = did_you_mean(target.name, [path.name for path in target.parent.iterdir() if path.is_dir()])
         raise ValueError(f"{words[0]}: {what}. {close}".rstrip(" ."))
     os.chdir(target)
-    os.environ["OLDPWD"] = str(before)
     files.last_cd = Path.cwd()
     return 0
 
@@ -63,8 +57,8 @@ def mkdir(terminal: Terminal, words: list[str]) -> int:
 
 
 def ls(terminal: Terminal, words: list[str]) -> int:
-    """`ls [-a] [-1] [-R] [name…]`: list folders, one name a line."""
-    letters, names = options(words, "1aAdFhlrRst")
+    """`ls [-a] [-1] [name…]`: list folders, one name a line."""
+    letters, names = options(words, "1aAdFhlrst")
 
     def show(place: Path) -> None:
         place.stat()
@@ -72,11 +66,7 @@ def ls(terminal: Terminal, words: list[str]) -> int:
             terminal.say(place)
             return
         inside = sorted(path for path in place.iterdir() if "a" in letters or not path.name.startswith("."))
-        terminal.say(*([f"{place}:"] if len(names) > 1 or "R" in letters else []), *(path.name for path in inside))
-        for path in inside if "R" in letters else ():
-            if path.is_dir():
-                terminal.say("")
-                show(path)
+        terminal.say(*([f"{place}:"] if len(names) > 1 else []), *(path.name for path in inside))
 
     return terminal.for_each(names or ["."], show, "ls: cannot access")
 
