@@ -80,6 +80,14 @@ def test_half_a_bag_is_half_read_and_the_rest_is_counted(sound: Sound, tmp_path:
     assert bag.damage.endswith(f". {len(messages)} of 200 messages can be read, {bag.lost} are lost")
 
 
+def test_zeros_that_a_crash_left_are_the_end(sound: Sound, tmp_path: Path) -> None:
+    if data_file(sound[0]).suffix != ".mcap":
+        pytest.skip("SQLite reads no file that is cut short")
+    bag = open_bag(spoil(sound, tmp_path, lambda data: data[: len(data) // 2] + bytes(10_000_000)))
+    assert set(read(bag)) < set(sound[1])
+    assert bag.message_count > 0 and bag.damage
+
+
 def test_one_spoiled_byte_costs_one_chunk(sound: Sound, tmp_path: Path) -> None:
     """MCAP only: SQLite has no checksums, so a spoiled byte within a message is not noticed there."""
     if data_file(sound[0]).suffix != ".mcap":

@@ -172,7 +172,7 @@ def _sound_records(data: memoryview, flaws: list[str]) -> Iterator[tuple[int, me
 
 def _records(data: memoryview, at: int) -> Iterator[tuple[int, int, int, memoryview]]:
     """Place, opcode, length and content of the records from a byte on; the content of the last may be cut short."""
-    while at + HEAD.size <= len(data):
+    while at + HEAD.size <= len(data) and data[at]:  # no record has the opcode 0: a crash may leave zeros at the end
         opcode, length = HEAD.unpack_from(data, at)
         yield at, opcode, length, data[at + HEAD.size : at + HEAD.size + length]
         at += HEAD.size + length
