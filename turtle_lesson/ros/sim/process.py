@@ -10,7 +10,8 @@ from __future__ import annotations
 import signal
 import sys
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass, field
 from functools import partial
 from io import StringIO
 from random import Random
@@ -44,6 +45,7 @@ class Killed(SystemExit):
 S = TypeVar("S")
 
 
+@dataclass(eq=False, repr=False)
 class Process:
     """A program in the simulation. With `state` libraries keep what each process has one of.
 
@@ -63,46 +65,36 @@ class Process:
         noticed: whether a notice has said that it holds up robot time.
     """
 
-    def __init__(
-        self,
-        simulation: Simulation,
-        name: str,
-        *,
-        pid: int,
-        seed: str,
-        argv: Sequence[str] = (),
-        stdout: Output | None = None,
-        stderr: Output | None = None,
-        stdin: Any = None,
-        on_exit: Callable[[Process], None] | None = None,
-    ) -> None:
-        self.simulation = simulation
-        self.name = name
-        self.pid = pid
-        self.argv = list(argv)
-        self.random = Random(seed)
-        self.seed = seed
-        self.stdout: Any = stdout
-        self.stderr: Any = stderr
-        self.stdin: Any = stdin
-        self.exit_code: int | None = None
-        self.world: Any = None
-        self._states: dict[type, Any] = {}
-        self.followers: list[Process] = []
-        self.before_exit: list[Callable[[], None]] = []
-        self.exit_functions: list[partial[object]] = []
-        self.at_exit: list[Callable[[], None]] = []
-        self.signal_handlers: dict[int, Any] = {signal.SIGINT: signal.default_int_handler}
-        self.signal_hook: Callable[[int], bool] | None = None
-        self.noticed = False
-        self.error: BaseException | None = None
-        self.is_notebook = False
-        self.modules: Any = None
-        self.environ: dict[Any, Any] | None = None
-        self.main_strand: Strand | None = None
-        self.strands: list[Strand] = []
-        self._on_exit = on_exit
-        self._numbers: Counter[str] = Counter()
+    simulation: Simulation
+    name: str
+    _: KW_ONLY
+    pid: int
+    seed: str
+    argv: list[str] = field(default_factory=list)
+    stdout: Any = None
+    stderr: Any = None
+    stdin: Any = None
+    on_exit: Callable[[Process], None] | None = None
+    exit_code: int | None = None
+    world: Any = None
+    followers: list[Process] = field(default_factory=list)
+    before_exit: list[Callable[[], None]] = field(default_factory=list)
+    exit_functions: list[partial[object]] = field(default_factory=list)
+    at_exit: list[Callable[[], None]] = field(default_factory=list)
+    signal_handlers: dict[int, Any] = field(default_factory=lambda: {signal.SIGINT: signal.default_int_handler})
+    signal_hook: Callable[[int], bool] | None = None
+    noticed: bool = False
+    error: BaseException | None = None
+    is_notebook: bool = False
+    modules: Any = None
+    environ: dict[Any, Any] | None = None
+    main_strand: Strand | None = None
+    strands: list[Strand] = field(default_factory=list)
+    _states: dict[type, Any] = field(default_factory=dict)
+    _numbers: Counter[str] = field(default_factory=Counter)
+
+    def __post_init__(self) -> None:
+        self.random = Random(self.seed)
 
     def state(self, kind: type[S], *arguments: Any) -> S:
         """What a module keeps of this process: its one object of this class, made of the arguments when first asked for."""
@@ -174,7 +166,7 @@ class Process:
 
     def close(self) -> None:
         """End the process in silence, because its world ends: nobody is told, and nothing it says is shown."""
-        self._on_exit = None
+        self.on_exit = None
         self.stdout = self.stderr = StringIO()
         self.kill()
 
@@ -245,5 +237,5 @@ class Process:
         for strand in self.strands:  # workers end with their process: they are never resumed again, wherever they stand
             if strand is not current:
                 self.simulation.forget(strand)
-        if self._on_exit is not None:
-            self._on_exit(self)
+        if self.on_exit is not None:
+            self.on_exit(self)
