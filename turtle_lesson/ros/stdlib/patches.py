@@ -252,9 +252,8 @@ def _check_python() -> None:
 
 # -- putting in and taking out ---------------------------------------------------------------------------------------
 
-_NOT_THERE = object()
 _replaced: list[tuple[Any, str, Any]] = []
-"""Owner, name and original of what is replaced now, the oldest first; an attribute that a class inherits is `_NOT_THERE`."""
+"""Owner, name and original of what is replaced now, the oldest first."""
 
 
 def install_early() -> None:
@@ -293,10 +292,7 @@ def uninstall() -> None:
 
 def _take_out() -> None:
     for owner, name, real in reversed(_replaced):
-        if real is _NOT_THERE:
-            delattr(owner, name)
-        else:
-            setattr(owner, name, real)
+        setattr(owner, name, real)
     uninstall_finder()
     sys.meta_path[:] = [each for each in sys.meta_path if each not in FINDERS]
     _replaced.clear()
@@ -312,7 +308,7 @@ def _put_in(rows: Iterable[Patch]) -> None:
         owner = resolve_name(place)
         if hasattr(owner, name):
             real = getattr(owner, name)
-            _replaced.append((owner, name, vars(owner).get(name, _NOT_THERE) if isinstance(owner, type) else real))
+            _replaced.append((owner, name, real))
             setattr(owner, name, ours(real))
 
 

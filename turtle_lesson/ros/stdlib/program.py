@@ -138,14 +138,10 @@ class ProgramModules:
 
     def show(self) -> None:
         """Have `sys.modules` hold this program's modules, until another's are shown or the cell goes on."""
-        simulation = self._process.simulation
-        if self.shown:
-            return
-        if simulation.modules_shown is not None:
-            simulation.modules_shown.hide()
-        simulation.modules_shown = self
-        self._hidden = _take_out(self._tops)
-        sys.modules.update(self._modules)
+        if not self.shown:
+            self._process.simulation.modules_shown = self  # another's were hidden when this process went on
+            self._hidden = _take_out(self._tops)
+            sys.modules.update(self._modules)
 
     def hide(self) -> None:
         """Have it hold again what it held before."""
