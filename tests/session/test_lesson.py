@@ -287,7 +287,7 @@ def test_a_node_of_an_earlier_world_says_so(lesson: Lesson) -> None:
     rclpy.init()
     node = rclpy.create_node("me")
     start()
-    with pytest.raises(WorldClosed, match="make the node"):
+    with pytest.raises(WorldClosed, match="make its node"):
         rclpy.spin_once(node, timeout_sec=1.0)
 
 
