@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..words import angle, number, point, turned
@@ -61,8 +61,8 @@ class Drive:
     goal: Goal
     begin: Pose
     answer: Answer
-    commands: list[Heard] = field(default_factory=list)
-    poses: list[Heard] = field(default_factory=list)
+    commands: list[Heard]
+    poses: list[Heard]
 
     @property
     def response(self) -> NavigateTo.Response:

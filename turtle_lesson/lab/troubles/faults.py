@@ -11,7 +11,7 @@ from random import Random
 from typing import Any
 
 from ..checks import navigation as nav
-from ..checks.assertions import node, publishes, rate, subscribes
+from ..checks.assertions import node, publishes, rate, some, subscribes
 from ..checks.page_04 import STATUS, STATUS_TYPE
 from ..checks.page_05 import SCAN_TYPE
 from ..checks.probe import Probe, interface, remembered
@@ -211,9 +211,7 @@ def status_follows(probe: Probe) -> Seen:
 @expectation("the battery falls 1 % a second")
 def battery_falls(probe: Probe) -> Seen:
     """The battery falls by a tenth of a percent a message, ten times a second."""
-    heard = probe.hear(STATUS, STATUS_TYPE, 2.0)
-    if len(heard) < 2:
-        raise CannotLook(f"nothing came on {STATUS}")
+    heard = some(probe, STATUS, STATUS_TYPE, 2.0)
     first, last = heard[0], heard[-1]
     if last.message.battery <= 0.0:
         raise CannotLook("the battery is empty: start the monitor again")
