@@ -264,12 +264,3 @@ def test_learners_copies_are_graded(checkout: Path, mine: Path, capsys: pytest.C
 def test_pages_whose_numbers_begin_alike_are_told_apart() -> None:
     assert pages.page_of(Path("anna_03_navigator.ipynb")) == "03_navigator"
     assert pages.page_of(Path("03b_answer_on_arrival.mine-1.ipynb")) == "03b_answer_on_arrival"
-
-
-def test_the_server_of_a_hub_needs_a_hub(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("JUPYTERHUB_SERVICE_URL", raising=False)
-    assert main(["open", "--hub"]) == 1
-    said = "turtle-lesson open: --hub is for JupyterHub, which calls this command. Without it, JupyterLab opens here.\n"
-    assert capsys.readouterr() == ("", said)
-    assert list(tmp_path.iterdir()) == []

@@ -22,9 +22,6 @@ JUPYTER = Path(__file__).resolve().parent / "jupyter"
 
 FIRST = "00_welcome.ipynb"
 
-SERVICE = "JUPYTERHUB_SERVICE_URL"
-"""The environment variable in which JupyterHub names the address that a server is to listen at."""
-
 GRADE = """\
 Run copies of pages, each in a kernel and a folder of its own, and print the points for each check.
 
@@ -155,10 +152,6 @@ def _grade(options: argparse.Namespace) -> int:
 
 def _open(options: argparse.Namespace) -> int:
     if options.hub:
-        if SERVICE not in os.environ:
-            raise pages.PageError(
-                "--hub is for JupyterHub, which calls this command. Without it, JupyterLab opens here."
-            )
         os.umask(0o077)  # from the folder on, nothing that is made here is for other users of the computer
     path = options.folder or Path("." if pages.is_learners(Path(".")) else pages.FOLDER)
     new = not pages.is_learners(path)
