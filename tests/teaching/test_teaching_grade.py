@@ -261,9 +261,10 @@ def test_an_interrupt_ends_all_copies_that_still_run(tmp_path: Path, monkeypatch
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Runner, "run", wait)
+    monkeypatch.setattr("turtle_lesson.teaching.grade.in_a_line", interrupt)
     monkeypatch.setattr(Copy, "content", lambda self: self.path.name.encode())
     with pytest.raises(KeyboardInterrupt):
-        grade([Copy(Path("first")), Copy(Path("second")), Copy(Path("third"))], 10, 2, interrupt)
+        grade([Copy(Path("first")), Copy(Path("second")), Copy(Path("third"))], 10, 2, 2)
     assert b"second" in ended
 
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 import csv
 import io
 import re
+import sys
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -20,7 +21,7 @@ from xml.etree import ElementTree
 
 from ..lab.checks.registry import all_checks
 from ..lab.checks.results import GOOD
-from .copies import MEMORY, Copy
+from .copies import Copy
 from .pages import page_of
 from .runner import Runner, Seen, run_all
 
@@ -94,21 +95,13 @@ class Graded:
         return sum(each.points for each in self.scores)
 
 
-def grade(
-    copies: Sequence[Copy],
-    timeout: float,
-    jobs: int = 1,
-    told: Callable[[int, int, Graded], object] | None = None,
-    memory: float = MEMORY,
-    client: str | None = None,
-) -> list[Graded]:
-    """Grade copies, some at once; the answers are in the order of the copies. `told` hears of each that is done.
+def grade(copies: Sequence[Copy], timeout: float, memory: float, jobs: int, client: str | None = None) -> list[Graded]:
+    """Grade copies, some at once, and say of each on the standard error that it is done. Answers in the copies' order.
 
     Args:
         timeout: computing time, s, that each may take.
-        jobs: how many run at once on this machine.
-        told: is given how many are done, how many there are, and the one that was done last.
         memory: GB that each process of a copy may take, where the system limits that.
+        jobs: how many run at once on this machine.
         client: the address of a Dask scheduler, whose workers run the copies instead of this machine.
     """
     all_checks()
@@ -122,8 +115,8 @@ def grade(
     with closing(running) as ran:
         for number, seen in ran:
             graded[number] = judged(copies[number], seen)
-            if told is not None:
-                told(len(graded), len(copies), graded[number])
+            done = f"{len(graded)} of {len(copies)}: {in_a_line(graded[number])}"
+            print(done, file=sys.stderr, flush=True)
     return [graded[number] for number in range(len(copies))]
 
 

@@ -15,7 +15,7 @@ from ..ros.runtime.files import OPENED
 from ..ros.sim.errors import print_error
 from . import pages
 from .copies import MEMORY, PATIENCE, TIMEOUT, find
-from .grade import Graded, as_csv, as_json, as_junit, grade, in_a_line, in_words
+from .grade import as_csv, as_json, as_junit, grade, in_words
 
 JUPYTER = Path(__file__).resolve().parent / "jupyter"
 """Holds the kernel that says which cell to run after a restart, and settings: no news, and no look for updates."""
@@ -135,14 +135,10 @@ def _grade(options: argparse.Namespace) -> int:
     copies = find(options.paths)
     if not copies:
         raise pages.PageError(f"there is no notebook in {', '.join(map(str, options.paths))}")
-
-    def tell(done: int, amount: int, copy: Graded) -> None:
-        print(f"{done} of {amount}: {in_a_line(copy)}", file=sys.stderr, flush=True)
-
     from ..experiments.pools import cores
 
     os.environ["TURTLE_LESSON_CACHE"] = "off"  # a copy runs with the teacher's rights, and could have written into it
-    graded = grade(copies, options.timeout, options.jobs or cores(), tell, options.memory, options.client)
+    graded = grade(copies, options.timeout, options.memory, options.jobs or cores(), options.client)
     print(json.dumps(as_json(graded), indent=1, ensure_ascii=False) if options.json else in_words(graded))
     for file, text in ((options.junit, as_junit), (options.csv, as_csv)):
         if file is not None:
