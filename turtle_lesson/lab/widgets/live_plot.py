@@ -85,27 +85,26 @@ def steps_to_number(topic: str, type_name: str, rest: str) -> list[Step]:
     if _STEP.sub("", rest):
         raise ValueError(f'"{rest}" is not a path to a field: try /linear/x or /ranges[90]')
     steps: list[Step] = [name or int(index) for name, index in _STEP.findall(rest)]
-    kind, fields, walked = Kind(type_name), kinds_of(find_class(type_name)), topic
-    if not steps and len(fields) == 1:
-        steps = [*fields]
+    kind, walked = Kind(type_name), topic
+    if not steps and len(only := _below(kind)) == 1:
+        steps = [*only]
     for step in steps:
-        if kind.array and isinstance(step, int):
-            kind, walked = kind.element, f"{walked}[{step}]"
-        elif kind.is_message and not kind.array:
-            if step not in fields:
-                raise ValueError(f'{kind.base} has no field "{step}". {suggestion(str(step), fields)}')
-            kind, walked = fields[str(step)], f"{walked}/{step}"
-        elif kind.is_number:
-            raise ValueError(f"{walked} is a {kind}, a number without fields: leave out the rest")
-        fields = kinds_of(find_class(kind.base)) if kind.is_message else {}
-    if kind.array:
-        raise ValueError(f"{walked} is an array ({kind}): say which element, such as {walked}[0]")
+        name, below = "[0]" if isinstance(step, int) else step, _below(kind)
+        if name not in below:
+            raise ValueError(f'{kind} has no field "{step}". {suggestion(str(step), below)}')
+        kind, walked = below[name], f"{walked}[{step}]" if isinstance(step, int) else f"{walked}/{step}"
     if not kind.is_number:
-        numbers = [name for name, each in fields.items() if each.is_number]
-        ways = enumerated(f"{walked}/{name}" for name in numbers or fields)
-        hint = f": try {ways}" if fields else ", which cannot be drawn as a curve"
+        ways = enumerated(f"{walked}/{name}".replace("/[", "[") for name in _below(kind))
+        hint = f": try {ways}" if _below(kind) else ", which cannot be drawn as a curve"
         raise ValueError(f"{walked} is not a number but a {kind}{hint}")
     return steps
+
+
+def _below(kind: Kind) -> dict[str, Kind]:
+    """What a step leads to: from an array to its elements, from a message to its fields, from a number nowhere."""
+    if kind.array:
+        return {"[0]": kind.element}
+    return kinds_of(find_class(kind.base)) if kind.is_message else {}
 
 
 def reader(steps: list[Step]) -> Callable[[Any], float]:
