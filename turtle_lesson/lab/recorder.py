@@ -229,17 +229,13 @@ class Channel:
 
 
 def find_class(type_name: str) -> Any:
-    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist", "turtlesim/srv/Spawn" or of an action's feedback.
+    """The class of "geometry_msgs/msg/Twist", "geometry_msgs/Twist" or "turtlesim/srv/Spawn".
 
     Raises ValueError where it cannot be imported, with what to try.
     """
     package, _, rest = type_name.partition("/")
     folder, _, name = rest.rpartition("/")
     try:
-        if "_" in name and folder in ("", "action"):  # "X_Feedback" is X.Feedback, "X_FeedbackMessage" is in X.Impl
-            action_name, _, part = name.partition("_")
-            action = getattr(importlib.import_module(f"{package}.action"), action_name)
-            return getattr(action, part) if hasattr(action, part) else getattr(action.Impl, part)
         return getattr(importlib.import_module(f"{package}.{folder or 'msg'}"), name)
     except (ImportError, AttributeError):
         raise ValueError(
