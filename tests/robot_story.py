@@ -230,7 +230,7 @@ async def form_publishes_and_calls(stage: Any) -> Any:
     order(topic, "publish")
     await until(lambda: (0.25, 0.0) in stage.turtle.heard)
     order(topic, "edit", path="linear/x", text="0.0")
-    order(topic, "options", rate=20.0)
+    order(topic, "rate", rate=20.0)
     order(topic, "repeat")
     await until(lambda: topic.published > 5)
     order(topic, "stop")

@@ -12,6 +12,7 @@ from lab_fakes import order
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.recorder import find_class
+from turtle_lesson.lab.widgets import backend
 from turtle_lesson.lab.widgets.form import publish_line
 from turtle_lesson.lab.widgets.message_fields import Field, Kind, fields_of, kinds_of, read_kind
 from turtle_lesson.ros.idl.names import bounds, is_hidden
@@ -161,7 +162,7 @@ def test_it_publishes_once_and_moves_the_turtle(lesson: Lesson) -> None:
 
 def test_it_publishes_at_a_rate_of_robot_time_until_it_is_stopped(lesson: Lesson) -> None:
     widget = lesson.form("/turtle1/cmd_vel")
-    order(widget, "options", rate=4)
+    order(widget, "rate", rate=4)
     order(widget, "repeat")
     assert "--rate 4 " in widget.line
     lesson.run(1.1)
@@ -204,9 +205,9 @@ def test_it_calls_a_service_and_shows_the_answer(lesson: Lesson) -> None:
     assert widget.words.startswith("/navigate_to answered after ") and not widget.running
 
 
-def test_no_answer_within_the_time_and_nobody_there(lesson: Lesson) -> None:
+def test_no_answer_within_the_time_and_nobody_there(lesson: Lesson, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(backend, "LONGEST_WAIT", 0.5)
     widget = lesson.form("/navigate_to")
-    order(widget, "options", timeout=0.5)
     order(widget, "edit", path="x", text="9")
     order(widget, "call")
     lesson.run(0.6)
@@ -258,8 +259,8 @@ def test_unknown_names(lesson: Lesson, name: Any, said: str) -> None:
         {"do": "edit", "path": "linear", "text": "1"},
         {"do": "edit", "path": "linear/x", "text": 1},
         {"do": "edit", "path": "linear/x", "text": True},
-        {"do": "options", "rate": "fast"},
-        {"do": "options", "rate": 0},
+        {"do": "rate", "rate": "fast"},
+        {"do": "rate", "rate": 0},
         {"do": "_publish", "message": None},
         {"do": 7},
     ],

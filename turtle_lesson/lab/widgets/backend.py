@@ -161,6 +161,9 @@ PATIENCE = 1.0
 DISCOVERY = 2.0
 """Seconds for which a question is held back on a real network, until a new client has found its server."""
 
+LONGEST_WAIT = 60.0
+"""Seconds of robot time after which a question counts as not answered."""
+
 LONGEST = 128
 """How many elements or characters of a field are shown of an answer, as `ros2 topic echo` does it."""
 
@@ -245,7 +248,7 @@ class LazyClient:
         self._client: Any = None
         self._future: Future | None = None
         self._held: Any = None
-        self._deadline = self._asked = 0.0
+        self._asked = 0.0
         self._answered: Callable[[str, str], object] = lambda words, answer: None
 
     @property
@@ -253,17 +256,17 @@ class LazyClient:
         """Whether it waits for an answer."""
         return self._future is not None or self._held is not None
 
-    def ask(self, request: Any, timeout: float, answered: Callable[[str, str], object]) -> None:
+    def ask(self, request: Any, answered: Callable[[str, str], object]) -> None:
         """Ask; `answered` is told what became of it, in words, and the answer in YAML ("" where none came).
 
-        That is at the latest after `timeout` s of robot time.
+        That is at the latest after `LONGEST_WAIT`.
         """
         if self.asking:
             raise ValueError(f"{self._name} has not answered the last request yet: wait, or stop waiting.")
         self._answered = answered
         if self._client is None:
             self._client = self._backend.node.create_client(self._class, self._name)
-        self._asked, self._deadline = self._backend.now, self._backend.now + timeout
+        self._asked = self._backend.now
         self._held = request
         self.look()
 
@@ -280,9 +283,8 @@ class LazyClient:
             elif not may_come:
                 self._held = None
                 self._end(f"Not asked: {self.why_unheard()}")
-        elif self._future is not None and now > self._deadline:
-            waited = number(self._deadline - self._asked, 1)
-            self._end(f"No answer from {self._name} within {waited} s of robot time.")
+        elif self._future is not None and now > self._asked + LONGEST_WAIT:
+            self._end(f"No answer from {self._name} within {LONGEST_WAIT:g} s of robot time.")
         elif self._future is not None and not self._is_offered():
             self._end(f"No answer: the node that offered {self._name} is gone.")
 

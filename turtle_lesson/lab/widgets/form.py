@@ -44,8 +44,6 @@ class Form(LiveWidget):
     """What to know of this line, or of this form."""
     rate = traitlets.Float(10.0).tag(sync=True)
     """Messages a second of robot time."""
-    timeout = traitlets.Float(60.0).tag(sync=True)
-    """How long to wait for an answer, s of robot time."""
     running = traitlets.Bool(False).tag(sync=True)
     """Whether it publishes at the rate, or waits for an answer."""
     published = traitlets.Int(0).tag(sync=True)
@@ -82,14 +80,11 @@ class Form(LiveWidget):
         self._fields = fields_of(self._class())
         self._bring_up_to_date()
 
-    def do_options(self, rate: float | None = None, timeout: float | None = None) -> None:
-        """Set how often to publish (messages a second), how long to wait for an answer (s)."""
-        if rate is not None:
-            self.rate = within("rate", rate, 0.01, 100)
-            if self._timer is not None:
-                self._publish_again_and_again()
-        if timeout is not None:
-            self.timeout = within("waiting time", timeout, 0.1, 3600)
+    def do_rate(self, rate: float) -> None:
+        """Set how often to publish (messages a second)."""
+        self.rate = within("rate", rate, 0.01, 100)
+        if self._timer is not None:
+            self._publish_again_and_again()
         self._bring_up_to_date()
 
     def do_publish(self) -> None:
@@ -119,7 +114,7 @@ class Form(LiveWidget):
         request = self._message()
         self.answer = ""
         self.words = f"Asked {self.name}; waiting for its answer."
-        self._client.ask(request, self.timeout, self._answered)
+        self._client.ask(request, self._answered)
         if self._client.asking:
             let_time_go_on(self.backend)
 

@@ -51,7 +51,8 @@ const isSound = (model) => !Object.keys(model.get("errors")).length;
 function publishing(model, order) {
   const once = button("Publish once", () => order("publish"), { class: "tl-button tl-main" });
   const repeat = button("", () => order(model.get("running") ? "stop" : "repeat"), { class: "tl-button tl-repeat" });
-  const rate = amount("rate", model, order, { min: 0.01, max: 100 });
+  const rate = element("input", { type: "number", step: "any", min: 0.01, max: 100 });
+  rate.addEventListener("change", () => rate.value && order("rate", { rate: Number(rate.value) }));
   const count = element("small");
   const reset = button("Reset", () => order("reset"), { title: "Reset all fields to their defaults" });
   const times = element("label", { class: "tl-amount" }, rate, "times a second");
@@ -70,10 +71,8 @@ function publishing(model, order) {
 function calling(model, order) {
   const call = button("Call", () => order("call"), { class: "tl-button tl-main" });
   const stop = button("Stop waiting", () => order("stop"));
-  const timeout = amount("timeout", model, order, { min: 0.1, max: 3600 });
   const reset = button("Reset", () => order("reset"), { title: "Reset all fields to their defaults" });
-  const wait = element("label", { class: "tl-amount" }, "wait at most", timeout, "s of robot time");
-  const actions = element("div", { class: "tl-actions" }, call, stop, wait, reset);
+  const actions = element("div", { class: "tl-actions" }, call, stop, reset);
   const answer = element("pre", { class: "tl-answer", "aria-label": "Answer", tabindex: 0 });
   const answered = element("div", { class: "tl-answered", hidden: true }, element("small", {}, "Answer"), answer);
   const panel = element("div", {}, actions, answered);
@@ -82,15 +81,7 @@ function calling(model, order) {
     stop.disabled = !model.get("running");
   };
   const showAnswer = () => ((answer.textContent = model.get("answer")), (answered.hidden = !model.get("answer")));
-  const showTimeout = () => timeout !== document.activeElement && (timeout.value = model.get("timeout"));
-  return { panel, watch: { running: show, errors: show, answer: showAnswer, timeout: showTimeout } };
-}
-
-/** A number that belongs to the sending: how often, how long. */
-function amount(name, model, order, limits) {
-  const input = element("input", { type: "number", step: "any", ...limits });
-  input.addEventListener("change", () => input.value && order("options", { [name]: Number(input.value) }));
-  return input;
+  return { panel, watch: { running: show, errors: show, answer: showAnswer } };
 }
 
 /** The same for the terminal, with a button that copies it. */
