@@ -61,22 +61,19 @@ class ProgressFile:
         if file is None or not file.is_file():
             return
         try:
-            content = json.loads(file.read_text(encoding="utf-8"))
-            self._take(_numbers_in(content, "points"))
-            self._failures |= _numbers_in({"failures": {}, **content}, "failures")
-        except OSError as error:
-            self.remark = f"{file.name} cannot be read ({error.strerror}); {KERNEL_ONLY}"
-            self.path = None
-        except (ValueError, RecursionError):
-            aside = files.unused(lambda number: file.with_name(f"{file.name}.broken-{number}"))
+            text = file.read_bytes()
             try:
+                content = json.loads(text)
+                self._take(_numbers_in(content, "points"))
+                self._failures |= _numbers_in({"failures": {}, **content}, "failures")
+            except (ValueError, RecursionError):
+                aside = files.unused(lambda number: file.with_name(f"{file.name}.broken-{number}"))
                 file.rename(aside)
-            except OSError:
-                self.remark = f"{file.name} is damaged and cannot be replaced; {KERNEL_ONLY}"
-                self.path = None
-            else:
                 self.remark = f"{file.name} was damaged. It is kept as {aside.name}, and a new one was started."
                 self._write()
+        except OSError as error:
+            self.remark = f"{file.name} cannot be read, or not be replaced ({error.strerror}); {KERNEL_ONLY}"
+            self.path = None
 
     def _write(self) -> None:
         if self.path is None:

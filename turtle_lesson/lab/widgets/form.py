@@ -40,8 +40,6 @@ class Form(LiveWidget):
     """What is wrong in a field, by its path."""
     line = traitlets.Unicode().tag(sync=True)
     """The same for the terminal; "" while a field has an error."""
-    remark = traitlets.Unicode().tag(sync=True)
-    """What to know of this line, or of this form."""
     rate = traitlets.Float(10.0).tag(sync=True)
     """Messages a second of robot time."""
     running = traitlets.Bool(False).tag(sync=True)
@@ -62,8 +60,6 @@ class Form(LiveWidget):
         self._last: Any = None
         fields = [field.state() for field in self._fields]
         super().__init__(backend, name=full, kind=kind, type_name=type_name, fields=fields)
-        if any(field.control == "now" for field in self._fields):
-            self.remark = "The stamp is left out: a line for the terminal cannot know it."
         self._bring_up_to_date()
         self.tick()
 

@@ -80,8 +80,6 @@ class GoalPad(LiveWidget):
     """The "seconds" of wall time since it was played, and the "speed" that it really reaches; 0 while it stands still."""
     goals = traitlets.List(traitlets.Dict()).tag(sync=True)
     """The newest goals, in the order in which they were sent; `Goal` says what there is of each."""
-    earlier = traitlets.Int(0).tag(sync=True)
-    """How many were sent before those."""
 
     def __init__(self, backend: Link, **traits: Any) -> None:
         self._trail = Trail(SPACING, TAIL, KEPT)
@@ -106,7 +104,6 @@ class GoalPad(LiveWidget):
         if self._goal_news:
             self._goal_news = False
             self.goals = [asdict(each) for each in self.desk.goals[-SHOWN:]]
-            self.earlier = max(0, len(self.desk.goals) - SHOWN)
 
     def _text(self) -> str:
         here = f"{self.title} at {number(self.backend.now)} s of robot time: {self._place()}."

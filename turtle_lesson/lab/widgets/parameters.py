@@ -159,9 +159,7 @@ class ParametersPanel(LiveWidget):
         for parameter in event.changed_parameters:
             if found := self._found.get(parameter.name):
                 found.value = parameter.value
-        for parameter in event.deleted_parameters:
-            self._found.pop(parameter.name, None)
-        if any(parameter.name not in self._found for parameter in event.new_parameters):
+        if event.deleted_parameters or any(parameter.name not in self._found for parameter in event.new_parameters):
             self._ask()  # for a new one there is a description, too
         self._show()
 

@@ -98,15 +98,13 @@ function terminalLine(model) {
     copy.textContent = "Copied";
     setTimeout(() => (copy.textContent = "Copy"), 1500);
   }); // prettier-ignore
-  const remark = element("small");
   const row = element("div", { class: "tl-terminal" }, code, copy);
-  const panel = element("div", { class: "tl-same" }, element("small", {}, "The same in a terminal"), row, remark);
+  const panel = element("div", { class: "tl-same" }, element("small", {}, "The same in a terminal"), row);
   const show = () => {
     code.textContent = model.get("line") || "(correct the fields first)";
     copy.disabled = !model.get("line");
-    remark.textContent = model.get("remark");
   };
-  return { panel, watch: { line: show, remark: show } };
+  return { panel, watch: { line: show } };
 }
 
 export default { initialize: handOut, render: (context) => mount(context, "form", `Form for ${context.model.get("name")}`, formPanel) };

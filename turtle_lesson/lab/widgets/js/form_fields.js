@@ -17,7 +17,7 @@ function formFields(fields, order) {
 /** A group that can be folded: deep ones are to begin with, so that the whole can be seen. */
 function formGroup(part, groups, depth) {
   const title = element("summary", {}, element("b", {}, part.name), " ", element("small", {}, part.type));
-  groups[part.path] = element("div", { class: "tl-inner" }, part.control === "now" ? "the moment of sending" : "");
+  groups[part.path] = element("div", { class: "tl-inner" }, part.control === "now" ? "the moment of sending, which a line for the terminal cannot know" : "");
   return element("details", { class: "tl-group", "data-path": part.path, open: depth < 2 }, title, groups[part.path]);
 }
 

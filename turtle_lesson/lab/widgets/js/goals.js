@@ -21,14 +21,14 @@ function goalsPanel(model, order, box) {
 
   const showGoals = () => {
     const goals = [...model.get("goals")].reverse();
-    const more = model.get("earlier");
+    const more = (goals.at(-1)?.number ?? 1) - 1; // they are numbered from 1
     list.replaceChildren(...goals.map(goalLine));
     if (more) list.append(element("li", { class: "tl-note" }, `and ${more} earlier`));
     if (!goals.length) list.append(element("li", { class: "tl-note" }, "No goal sent yet."));
     progress.show();
   };
   box.watch(() => (panel.hidden = box.held !== "goals"));
-  return { title: "Goals", aside: "/navigate_to", panel, watch: { goals: showGoals, earlier: showGoals, pose: progress.show, now: progress.show } };
+  return { title: "Goals", aside: "/navigate_to", panel, watch: { goals: showGoals, pose: progress.show, now: progress.show } };
 }
 
 /** On the map: a click sends, a drag sets the heading; arrows move a cursor, Enter sends. `form` shows the same numbers. */
