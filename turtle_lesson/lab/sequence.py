@@ -151,7 +151,7 @@ def _value(value: Any) -> str:
 
 
 class Event(NamedTuple):
-    """One line of the diagram. `kind` is "call", "answer", "lost", "note", "activate" or "deactivate".
+    """One line of the diagram. `kind` is "call", "answer", "note", "activate" or "deactivate".
 
     <br/> separates the lines of `text`.
     """
@@ -167,8 +167,7 @@ def _events(step: Step) -> list[tuple[int, Event]]:
     call, server = step.call, step.call.server
     asked = f"{clock(call.asked)}: {call.service}<br/>{fields(call.request)}"
     if not server:
-        events = [Event("lost", call.caller, text=asked), Event("note", call.caller, text="no node received it")]
-        return [(call.asked, event) for event in events]
+        return [(call.asked, Event("note", call.caller, text=f"{asked}<br/>no node received it"))]
     question = call.asked, Event("call", call.caller, server, asked)
     if step.began is None or call.received is None:
         return [question, (call.asked, Event("note", server, text="waits: no callback has begun yet"))]
@@ -226,22 +225,16 @@ def _draw(event: Event, x: float, to: float, y: float, lines: list[str]) -> str:
         width = max(drawing.text_width(line, SIZE) for line in lines) + 16
         top = y - LINE * len(lines) - 4
         return _box(x, top, width, LINE * len(lines) + 8, lines, "services")
-    if event.kind == "lost":
-        end = x + APART / 2
-        cross = f"M{end - 5:g},{number(y - 5, 1)}l10,10m0,-10l-10,10"
-        arrow = f'<path d="M{x:g},{number(y, 1)}H{end:g}{cross}" stroke="{drawing.VERMILLION}" stroke-width="1.6" fill="none"/>'
-    else:
-        end = to
-        side = 1 if to > x else -1
-        dash = ' stroke-dasharray="5 4"' if event.kind == "answer" else ""
-        stop = to - 12 * side
-        head = f"M{to - 4 * side:g},{number(y, 1)}l{-9 * side},-4.5v9Z"
-        arrow = (
-            f'<path d="M{x + 4 * side:g},{number(y, 1)}H{stop:g}" stroke="{drawing.INK}" stroke-width="1.5"{dash}/>'
-            f'<path d="{head}" fill="{drawing.INK}"/>'
-        )
+    side = 1 if to > x else -1
+    dash = ' stroke-dasharray="5 4"' if event.kind == "answer" else ""
+    stop = to - 12 * side
+    head = f"M{to - 4 * side:g},{number(y, 1)}l{-9 * side},-4.5v9Z"
+    arrow = (
+        f'<path d="M{x + 4 * side:g},{number(y, 1)}H{stop:g}" stroke="{drawing.INK}" stroke-width="1.5"{dash}/>'
+        f'<path d="{head}" fill="{drawing.INK}"/>'
+    )
     first = y - 6 - LINE * (len(lines) - 1)
-    return arrow + "".join(drawing.text((x + end) / 2, first + LINE * at, line, SIZE) for at, line in enumerate(lines))
+    return arrow + "".join(drawing.text((x + to) / 2, first + LINE * at, line, SIZE) for at, line in enumerate(lines))
 
 
 def _box(x: float, top: float, width: float, height: float, lines: list[str], kind: str) -> str:
@@ -261,7 +254,7 @@ SETTINGS = (
 """Closer together than Mermaid's own, so that two or three programs fit beside one another on a narrow page."""
 
 
-ARROWS = {"call": "{0}->>{1}: {2}", "answer": "{0}-->>{1}: {2}", "lost": "{0}-x{0}: {2}", "note": "Note over {0}: {2}"}
+ARROWS = {"call": "{0}->>{1}: {2}", "answer": "{0}-->>{1}: {2}", "note": "Note over {0}: {2}"}
 """How each kind of event is written, besides "activate" and "deactivate"."""
 
 
