@@ -21,14 +21,13 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from ..ros.sim.defer_sigint import defer_sigint
+from ..turtlesim.obstacles import Obstacle
 from .words import number
 
 if TYPE_CHECKING:
     import numpy as np
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from ..turtlesim.obstacles import Obstacle
 
 
 BLUE, SKY, GREEN, ORANGE = "#1A80C4", "#56B4E9", "#009E73", "#E69F00"

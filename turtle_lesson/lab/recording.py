@@ -10,12 +10,12 @@ from numbers import Real
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
+from ..turtlesim.obstacles import Obstacle
 from .words import number
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..turtlesim.obstacles import Obstacle
     from .widgets.goal_client import Goal
 
 WORLD = 11.088889

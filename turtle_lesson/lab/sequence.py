@@ -7,16 +7,14 @@ import textwrap
 from collections.abc import Sequence
 from itertools import chain
 from operator import attrgetter, itemgetter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+from ..ros.rmw.trace import Call, Callback, Trace
 from . import drawing
 from .graph import LOOKS, PARAMETER_SERVICES, THEME, GraphPicture, plain_line
 from .recording import NANOSECONDS
 from .timeline import SHORT, Window, window_of
 from .words import count, did_you_mean, listed, number, shortened
-
-if TYPE_CHECKING:
-    from ..ros.rmw.trace import Call, Callback, Trace
 
 MOST = 8
 """How many calls one diagram shows, the newest."""

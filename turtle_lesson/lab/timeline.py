@@ -10,7 +10,7 @@ import numpy as np
 from rclpy.node import Node
 
 from ..ros.idl.names import is_hidden
-from ..ros.rmw.trace import TOPICS
+from ..ros.rmw.trace import TOPICS, Callback, Trace
 from . import drawing
 from .drawing import Picture
 from .graph import EVERYWHERE, PARAMETER_SERVICES, node_names
@@ -20,8 +20,6 @@ from .words import count, listed, number, rate, shortened, suggestion
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from ..ros.rmw.trace import Callback, Trace
 
 
 WIDTH, LEFT, RIGHT = 6.4, 1.95, 0.25

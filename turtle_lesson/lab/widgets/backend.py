@@ -17,14 +17,13 @@ from typing import TYPE_CHECKING, Any
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 from rosidl_runtime_py import message_to_yaml
 
 from ..graph import others
 from ..words import enumerated, listed, number
 
 if TYPE_CHECKING:
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
-
     from ...ros.sim.keyboard import Keyboard
     from ...session.live import Player
     from ..recorder import ObstacleBoard, Recorder

@@ -23,14 +23,13 @@ from ..recorder import Channel
 from ..recording import COMMAND_TOPIC, NANOSECONDS, OBSTACLE_TOPIC, POSE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status_and_scan import Beams, plot_status, read_beams
 from ..words import count, listed, number
+from .backend import Link
 from .goal_client import SERVICE
 from .goal_pad import GoalPad
 from .live_widget import pack
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from .backend import Link
 
 LATE = 1.5
 """Seconds of robot time without a status, or without a scan, after which the panel says so."""

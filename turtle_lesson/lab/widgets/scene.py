@@ -14,10 +14,11 @@ import traitlets
 from .. import drawing
 from ..drawing import Picture
 from ..path import Trail
-from ..recording import WORLD
+from ..recording import WORLD, Recording
 from ..status_and_scan import read_beams
 from ..words import angle, count, listed, number, point
 from . import scene_commands, scene_mesh
+from .backend import Link
 from .goal_client import Goal
 from .live_widget import LiveWidget
 from .scene_commands import viewer_bundle
@@ -26,9 +27,6 @@ from .scene_page import VIEW_SCRIPTS, ScenePage, replay_page, state_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from ..recording import Recording
-    from .backend import Link
 
 AROUND, UP = math.radians(-62), math.radians(40)
 """The viewpoint: the direction of the eye, and its height above the horizon, rad."""

@@ -16,12 +16,12 @@ from ..path import distance_driven, find_jumps
 from ..recording import POSE_TOPIC
 from ..words import number, point
 from . import scene_commands
+from .goal_client import Goal
 from .live_widget import pack, source
 from .scene_commands import cast_no_shadow, packed, show
 from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
 
 if TYPE_CHECKING:
-    from .goal_client import Goal
     from .scene import Scene
 
 
