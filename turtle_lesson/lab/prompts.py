@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import html
-import inspect
-import linecache
 import re
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from types import FunctionType
-from typing import Any
 
 _KINDS = {
     "debugging": (
@@ -99,16 +94,14 @@ MOST = 60_000
 """Characters in all: more is no help in a chat."""
 
 
-def code_of(what: Any) -> dict[str, str]:
+def code_of(what: str | Path | Sequence[str | Path]) -> dict[str, str]:
     """Source texts by a name for each.
 
-    `what` is a path (of a file, or of a folder: its programs, interfaces and package files), a function, a class, an
-    instance (its class), a text that is code, or a list of these.
-
-    Raises ValueError for what has no source, and for a path that leads nowhere.
+    `what` is a path (of a file, or of a folder: its programs, interfaces and package files), a text that is code, or a
+    list of these. Raises ValueError for anything else, and for a path that leads nowhere.
     """
     found: dict[str, str] = {}
-    for each in what if isinstance(what, (list, tuple)) else [what]:
+    for each in [what] if isinstance(what, str) or not isinstance(what, Sequence) else what:
         found.update(_texts(each))
     size = sum(map(len, found.values()))
     if size > MOST:
@@ -119,31 +112,14 @@ def code_of(what: Any) -> dict[str, str]:
     return found
 
 
-def _texts(what: Any) -> dict[str, str]:
+def _texts(what: str | Path) -> dict[str, str]:
     if isinstance(what, str) and "\n" in what:
         return {"code": f"{what.strip()}\n"}
-    if not isinstance(what, (str, Path)):
-        target = what if isinstance(what, (type, FunctionType)) else getattr(what, "__func__", type(what))
-        return {target.__qualname__: _source(target)}
-    path = Path(what)
-    if not path.exists():
-        raise ValueError(f"there is no file {path} here ({Path.cwd().name}/): look with ls, or give the class itself")
+    if not isinstance(what, (str, Path)) or not (path := Path(what)).exists():
+        raise ValueError(f"there is no file {what} here ({Path.cwd().name}/): look with ls, or give the code itself")
     made = {"build", "install", "log", "__pycache__"}
     files = {path.name: path} if path.is_file() else {}
     for file in sorted(path.rglob("*")):
         if file.suffix in SUFFIXES and not made & set(file.relative_to(path).parts):
             files[file.relative_to(path).as_posix()] = file
     return {name: file.read_text(encoding="utf-8", errors="replace") for name, file in files.items()}
-
-
-def _source(target: Any) -> str:
-    """The source of a function or class, also of a class from a cell, which Python 3.11's inspect does not find."""
-    with suppress(OSError, TypeError):
-        return inspect.getsource(target)
-    for method in vars(target).values():
-        code = getattr(getattr(method, "__func__", method), "__code__", None)
-        lines = linecache.getlines(code.co_filename) if code is not None else []
-        for at, line in enumerate(lines):
-            if re.match(rf"class {target.__name__}\b", line):
-                return "".join(inspect.getblock(lines[at:]))
-    raise ValueError(f"the source of {target!r} cannot be found: give the file, or the text itself")

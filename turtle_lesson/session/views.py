@@ -14,6 +14,7 @@ import re
 import sys
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from functools import cache, cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..learner.story import FINISHED
@@ -268,12 +269,12 @@ class Inspection(Views):
 
         return open_case(TroubleEnvironment(self._world), seed, name, lambda: self.check("trouble"))
 
-    def prompt_for(self, kind: str, *, code: Any = None, lines: int = 12) -> Prompt:
+    def prompt_for(self, kind: str, *, code: Path | Sequence[str | Path] | None = None, lines: int = 12) -> Prompt:
         """A text to copy into any chat with an assistant: specification, code, error, graph and log. Nothing is sent.
 
         Args:
             kind: "debugging" or "code review".
-            code: what it is about: the path of a file or folder, a class, a function, a node, a text, or a list of these.
+            code: what it is about: the path of a file or folder, a text, or a list of these.
                 Unless told, the learner's own package robot_controller, if there is one.
             lines: how many of the log's last lines.
 
