@@ -142,26 +142,20 @@ class Trail:
         self.changes += 1
 
 
-def plot_path(
-    recording: Recording, *, goal: Any = None, since: float | None = None, until: float | None = None
-) -> Picture:
-    """Return the turtle's path as a Picture, from `since` to `until` (seconds since the lesson's start).
+def plot_path(recording: Recording, *, goal: Any = None) -> Picture:
+    """Return the turtle's path as a Picture.
 
     `goal` marks one goal (x, y) or (x, y, theta) in metres and radians, or a list of them; raises ValueError
     for anything else. Without a pose, the Picture says why.
     """
     goals = read_goals(goal)
-    heard = recording.window(recording.poses, since, until)
+    heard = recording.poses.array()
     poses = heard[np.isfinite(heard["x"]) & np.isfinite(heard["y"]) & np.isfinite(heard["theta"])]
     broken = len(heard) - len(poses)
-    if broken and not len(poses):
-        nothing = f"{count(broken, 'pose')} heard in that time, all with nan, which is not a number."
-        return Picture(f"No path to draw: {nothing}")
-    if not len(recording.poses):
+    if not len(heard):
         return Picture(f"No path yet. {recording.why_silent(POSE_TOPIC)}")
     if not len(poses):
-        return Picture(f"No path in these seconds: poses were heard from {recording.span(recording.poses)}.")
-    commands = len(recording.window(recording.commands, since, until))
+        return Picture(f"No path to draw: {count(broken, 'pose')} heard, all with nan, which is not a number.")
     jumps = find_jumps(poses)
     driven = distance_driven(poses, jumps)
     x, y = poses[-1]["x"], poses[-1]["y"]
@@ -173,7 +167,7 @@ def plot_path(
         f"It was put elsewhere {count(len(jumps), 'time')} (teleport or reset)." if len(jumps) else "",
         f"Left out: {count(broken, 'pose')} with nan, which is not a number." if broken else "",
         f"It touches the {' and the '.join(walls)} wall." if walls else "",
-        f"{count(commands, 'command').capitalize()} on {COMMAND_TOPIC} in that time.",
+        f"{count(len(recording.commands), 'command').capitalize()} on {COMMAND_TOPIC} in that time.",
         *(_to_goal(each, poses[-1]) for each in goals),
         f"{count(len(places), 'obstacle').capitalize()} in the world: {', '.join(places)}." if places else "",
     ]

@@ -11,7 +11,6 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from ..turtlesim.obstacles import Obstacle
-from .words import number
 
 if TYPE_CHECKING:
     import numpy as np
@@ -163,20 +162,6 @@ class Recording:
     def seconds(self, stamps: Any) -> Any:
         """Times in ns (a number or an array) as seconds since `origin`."""
         return (stamps - self.origin) / NANOSECONDS
-
-    def window(self, table: Table, since: float | None = None, until: float | None = None) -> np.ndarray:
-        """The rows of a table from `since` to `until` (seconds since `origin`, both ends included)."""
-        rows = table.array()
-        if since is not None:
-            rows = rows[rows["stamp"] >= self.origin + nanoseconds("since", since)]
-        if until is not None:
-            rows = rows[rows["stamp"] <= self.origin + nanoseconds("until", until)]
-        return rows
-
-    def span(self, table: Table) -> str:
-        """The time that a table's rows span: "0.02 s to 24.51 s of robot time"."""
-        first, last = self.seconds(table.array()["stamp"][[0, -1]])
-        return f"{number(first)} s to {number(last)} s of robot time"
 
     def why_silent(self, topic: str) -> str:
         """A sentence on why nothing was heard on a topic, and what to try."""

@@ -23,16 +23,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def plot_status(recording: Recording, *, since: float | None = None, until: float | None = None) -> Picture:
-    """Return what came on /robot/status as a Picture. Without a message, the Picture says why.
-
-    `since` and `until` are in seconds since the lesson's start.
-    """
-    rows = recording.window(recording.statuses, since, until)
-    if not len(recording.statuses):
-        return Picture(f"No status yet. {recording.why_silent(STATUS_TOPIC)}")
+def plot_status(recording: Recording) -> Picture:
+    """Return what came on /robot/status as a Picture. Without a message, the Picture says why."""
+    rows = recording.statuses.array()
     if not len(rows):
-        return Picture(f"No status in these seconds: statuses were heard from {recording.span(recording.statuses)}.")
+        return Picture(f"No status yet. {recording.why_silent(STATUS_TOPIC)}")
     seconds = recording.seconds(rows["stamp"])
     with drawing.applied():
         figure = _draw_status(seconds, rows)

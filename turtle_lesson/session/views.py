@@ -120,17 +120,17 @@ class Views:
 
         return self._widget(Scene)
 
-    def plot_path(self, **options: Any) -> Picture:
+    def plot_path(self, *, goal: Any = None) -> Picture:
         """The way that the turtle went, on the map, from what /turtle1/pose said."""
         from ..lab.path import plot_path
 
-        return plot_path(self._recording, **options)
+        return plot_path(self._recording, goal=goal)
 
-    def plot_status(self, **options: Any) -> Picture:
+    def plot_status(self) -> Picture:
         """Position, heading, velocity and battery over time, from what /robot/status said."""
         from ..lab.status_and_scan import plot_status
 
-        return plot_status(self._recording, **options)
+        return plot_status(self._recording)
 
     def plot_scan(self) -> Picture:
         """The last scan that /obstacles brought, as the turtle sees it."""

@@ -76,12 +76,9 @@ class Scene(LiveWidget):
         self.redraw()
         return ScenePage("3-D scene", f"Snapshot of the {self.text()}", state_of(self))
 
-    def animation(self, since: float | None = None, until: float | None = None) -> ScenePage:
-        """The turtle's run as a page of HTML with a play bar, from `since` to `until` (seconds of robot time).
-
-        Raises ValueError where no pose was heard in that time.
-        """
-        return replay_page(self, since, until)
+    def animation(self) -> ScenePage:
+        """The turtle's run as a page of HTML with a play bar. Raises ValueError where no pose was heard."""
+        return replay_page(self)
 
     def _text(self) -> str:
         return f"3-D scene: {describe(self.backend.recorder, self._current_goal())}"

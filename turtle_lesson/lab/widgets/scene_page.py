@@ -76,13 +76,13 @@ Track = dict[str, Any]
 """How one property changes, as three.js has it."""
 
 
-def replay_page(scene: Scene, since: float | None, until: float | None) -> ScenePage:
-    """The run from `since` to `until` (seconds of robot time) as a page with a play bar."""
+def replay_page(scene: Scene) -> ScenePage:
+    """The run as a page with a play bar."""
     recorder = scene.backend.recorder
-    poses = recorder.window(recorder.poses, since, until)
+    poses = recorder.poses.array()
     poses = poses[np.isfinite(poses["x"]) & np.isfinite(poses["y"]) & np.isfinite(poses["theta"])]
     if len(poses) < 2:
-        raise ValueError(f"There is no run to replay in that time. {recorder.why_silent(POSE_TOPIC)}")
+        raise ValueError(f"There is no run to replay. {recorder.why_silent(POSE_TOPIC)}")
     scene.redraw()
     begin, end = (float(recorder.seconds(poses[at]["stamp"])) for at in (0, -1))
     driven = distance_driven(poses, find_jumps(poses))
