@@ -144,4 +144,4 @@ def test_any_text_is_read_or_refused(text: str) -> None:
 @given(st.lists(st.text(alphabet="abc/._-", min_size=1, max_size=8), max_size=5))
 def test_plain_words_come_back_as_they_are(words: list[str]) -> None:
     (call,) = read_calls(f"name({' '.join(words)})")
-    assert [argument.text for argument in call.args] == words
+    assert [argument.text for argument in call.tokens] == words

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from glob import glob
 from itertools import takewhile
 from pathlib import Path
@@ -29,11 +29,12 @@ _INSTALL_FOLDERS = {
 
 @dataclass(frozen=True)
 class Command:
-    """One command that takes effect: its name in lower case, its expanded arguments, its line."""
+    """One command: its name in lower case, its arguments as written, its line; if it takes effect, its expanded arguments."""
 
     name: str
-    args: tuple[str, ...]
+    tokens: tuple[Token, ...]
     line: int
+    args: tuple[str, ...] = ()
 
     @property
     def where(self) -> str:
@@ -72,9 +73,9 @@ def compiled_programs(folder: Path) -> dict[str, int]:
         return {}
 
 
-def _unreadable(words: str, place: str | int, line: int, reason: str) -> BuildFailure:
-    """CMake's own words about a text, which name `place`; `reason` says what is wrong in `line`."""
-    return refused(words, f"CMakeLists.txt:{place}", f"CMakeLists.txt, line {line}: {reason}.", seconds=0.1)
+def _unreadable(words: str, where: str, line: int, reason: str) -> BuildFailure:
+    """CMake's own words about a text, which name a place; `reason` says what is wrong in `line`."""
+    return refused(words, where, f"CMakeLists.txt, line {line}: {reason}.", seconds=0.1)
 
 
 # -- text to commands ----------------------------------------------------------------------------------------------------
@@ -116,19 +117,11 @@ class Token:
     def refusal(self, words: str, line: int, reason: str) -> BuildFailure:
         """CMake's error that this token stands where another one must be; `reason` says it in plain words."""
         shown = self.text.replace("\n", "\n\n")  # every line a paragraph
-        return _unreadable(f'{words} {self.kind} with text "{shown}".', self.end, line, _OPEN.get(self.kind, reason))
+        said = f'{words} {self.kind} with text "{shown}".'
+        return _unreadable(said, f"CMakeLists.txt:{self.end}", line, _OPEN.get(self.kind, reason))
 
 
-@dataclass(frozen=True)
-class Call:
-    """One command as written: its name in lower case, its arguments, the line where it begins."""
-
-    name: str
-    args: tuple[Token, ...]
-    line: int
-
-
-def read_calls(text: str) -> list[Call]:
+def read_calls(text: str) -> list[Command]:
     """All commands of the text, in order. Raises BuildFailure where it is no CMake."""
     tokens = _tokens(text if text.endswith("\n") else f"{text}\n")
     calls = []
@@ -138,7 +131,7 @@ def read_calls(text: str) -> list[Call]:
         if token.kind != "identifier":
             reason = f"expected a command such as find_package(…), found {token.text[:20]!r}"
             raise token.refusal("Parse error. Expected a command name, got", token.line, reason)
-        calls.append(Call(token.text.lower(), tuple(_arguments(tokens, token)), token.line))
+        calls.append(Command(token.text.lower(), tuple(_arguments(tokens, token)), token.line))
     return calls
 
 
@@ -168,7 +161,8 @@ def _arguments(tokens: Iterator[Token], name: Token) -> Iterator[Token]:
         if token.kind != "newline":
             yield token
     reason = f"the '(' of {name.text} is never closed; put a ')' where its arguments end"
-    raise _unreadable('Parse error. Function missing ending ")". End of file reached.', name.line, name.line, reason)
+    said = 'Parse error. Function missing ending ")". End of file reached.'
+    raise _unreadable(said, f"CMakeLists.txt:{name.line}", name.line, reason)
 
 
 # -- conditions ----------------------------------------------------------------------------------------------------------
@@ -225,10 +219,10 @@ class _Evaluator:
         self.folder = folder
         self.variables = dict.fromkeys(names, folder.as_posix()) | {"BUILD_TESTING": "ON", "UNIX": "1"}
 
-    def run(self, calls: Iterable[Call]) -> Iterator[Command]:
+    def run(self, calls: Iterable[Command]) -> Iterator[Command]:
         """The commands that take effect."""
         # each open if, and whether it is "waiting" for its branch, "taken" or "done"
-        opened: list[tuple[Call, str]] = []
+        opened: list[tuple[Command, str]] = []
         for call in calls:
             active = all(state == "taken" for _, state in opened)
             if call.name == "if":
@@ -236,36 +230,37 @@ class _Evaluator:
             elif call.name in {"elseif", "else", "endif"}:
                 if not opened:
                     reason = f"{call.name}() without an if() before it"
-                    raise _unreadable(_NESTED, f"{call.line} ({call.name})", call.line, reason)
+                    raise _unreadable(_NESTED, call.where, call.line, reason)
                 begin, state = opened.pop()
                 if call.name != "endif":
                     opened.append((begin, self._state(call, state)))
             elif active:
                 if call.name in _NOT_CARRIED_OUT:
                     hint = "Write the commands that it stands for in its place."
-                    where = f"CMakeLists.txt:{call.line} ({call.name})"
-                    raise refused(f"{call.name}() is not carried out in this simulation.", where, hint, seconds=0.1)
+                    raise refused(
+                        f"{call.name}() is not carried out in this simulation.", call.where, hint, seconds=0.1
+                    )
                 if call.name == "return":
                     return
-                command = Command(call.name, tuple(self._arguments(call)), call.line)
+                command = replace(call, args=tuple(self._arguments(call)))
                 self._effect(command)
                 yield command
         if opened:
-            line = opened[-1][0].line
-            raise _unreadable(_NESTED, f"{line} (if)", line, "this if() has no endif()")
+            call, _ = opened[-1]
+            raise _unreadable(_NESTED, call.where, call.line, "this if() has no endif()")
 
-    def _state(self, call: Call, state: str) -> str:
+    def _state(self, call: Command, state: str) -> str:
         """The state of an `if` after this `if`, `elseif` or `else` of it."""
         if state != "waiting":
             return "done"
-        words = [(self._expanded(argument, call), argument.quoted) for argument in call.args]
+        words = [(self._expanded(argument, call), argument.quoted) for argument in call.tokens]
         try:
             return "taken" if call.name == "else" or _holds(words, self.variables) else "waiting"
         except (SyntaxError, TypeError):
             given = " ".join(f'"{word}"' for word, _ in words)
             said = f"if given arguments:\n\n  {given}\n\nUnknown arguments specified"
             reason = f"if({' '.join(word for word, _ in words)}) is not a condition that CMake knows"
-            raise _unreadable(said, f"{call.line} (if)", call.line, reason) from None
+            raise _unreadable(said, f"CMakeLists.txt:{call.line} (if)", call.line, reason) from None
 
     def _effect(self, command: Command) -> None:
         variables = self.variables
@@ -285,15 +280,15 @@ class _Evaluator:
                 found = {file for pattern in patterns for file in glob(pattern, root_dir=here)}
                 variables[name] = ";".join(sorted(file.replace(os.sep, "/") for file in found))
 
-    def _arguments(self, call: Call) -> Iterator[str]:
-        for argument in call.args:
+    def _arguments(self, call: Command) -> Iterator[str]:
+        for argument in call.tokens:
             text = self._expanded(argument, call)
             if argument.quoted:
                 yield text
             else:  # a list, whose elements are arguments of their own
                 yield from (part.replace("\\;", ";") for part in re.split(r"(?<!\\);", text) if part)
 
-    def _expanded(self, argument: Token, call: Call) -> str:
+    def _expanded(self, argument: Token, call: Command) -> str:
         """The argument with its variables and escapes put in; an unset variable is empty, as in CMake."""
         text = argument.text
         if argument.kind == "bracket argument":  # in `[[…]]` nothing is replaced
@@ -305,7 +300,7 @@ class _Evaluator:
                 "There is an unterminated variable reference."
             )
             reason = f"'{text}': a ${{ is not closed by }}"
-            raise _unreadable(words, f"{call.line} ({call.name})", argument.line, reason)
+            raise _unreadable(words, call.where, argument.line, reason)
         for _ in range(max(1, text.count("${"))):  # ${a_${b}} needs a round for each level
             text = _VARIABLE.sub(self._replaced, text)
         return text

@@ -6,17 +6,14 @@ Facts: CMake 3.25, rosidl_cmake 3.1 and rosidl_adapter.
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import dropwhile
 from pathlib import Path
 
-from ..idl import names
-from ..idl.definition import parse
 from ..idl.model import InvalidDefinition
 from ..idl.names import did_you_mean, module_name
-from ..idl.registry import FOLDERS, Registry
+from ..idl.registry import FOLDERS, Package, Registry
 from ..sim.errors import shown_path
 from .cmake import Command, until
 from .install_tree import PYTHON_FOLDERS, Item, names_in
@@ -177,8 +174,16 @@ class InterfaceCheck:
                 if name.endswith(","):
                     hint = "CMake separates names by spaces or new lines: leave the commas out."
                 raise self._refused(93, text, hint)
+        own = Package(self._found.name, folder)
         for name in self.files:
-            self._parse(name)
+            kind, _, file = name.rpartition("/")
+            try:
+                if kind not in FOLDERS or not file.endswith(f".{kind}"):
+                    reason = "an interface lies in msg/, srv/ or action/, and its name ends in the same word"
+                    raise InvalidDefinition(reason).locate(interface=name, file=str(folder / name))
+                own.definition(name.removesuffix(f".{kind}"))
+            except InvalidDefinition as error:
+                raise self._unreadable(error) from None
         for name in self._dependencies:
             if name not in seen:
                 reason = f"rosidl_generate_interfaces() the passed dependency '{name}' has not been found before"
@@ -202,9 +207,10 @@ class InterfaceCheck:
                 types.module(self._found.name, interface)
             except InvalidDefinition as error:
                 if error.ros_error != "UnknownMessageType":
-                    raise self._adapter(error) from None
-                hint = _located(file, error.line, error.hint)
-                raise self._uncompiled(file, error.line, error.reason, hint) from None
+                    raise self._unreadable(error) from None
+                raise self._uncompiled(
+                    shown_path(error.file or ""), error.line, error.reason, _located(error)
+                ) from None
             definition = types.definition(f"{self._found.name}/{interface}")
             fields = [field for part in (definition, *definition.parts) for field in reversed(part.fields)]
             lines = {field.type.package: field.line for field in fields if field.type.package}
@@ -228,50 +234,17 @@ class InterfaceCheck:
         )
         return BuildFailure(text, hint, code=2, seconds=1.5)
 
-    def _parse(self, name: str) -> None:
-        path = self._found.path / name
-        suffix = path.suffix[1:]
-        if suffix not in FOLDERS:
-            text = f"AssertionError: Unsupported interface type '{path.suffix}'"
-            raise self._adapter_text(text, "An interface file ends in .msg, .srv or .action.")
-        if path.parent.name != suffix:
-            hint = f'Put it in {suffix}/ and write "{suffix}/{path.name}": Python\'s `import` expects it there.'
-            raise self._adapter_text(f"{name} does not lie in a folder {suffix}/", hint)
-        try:
-            names.check("package", self._found.name)
-            parse(suffix, self._found.name, path.stem, path.read_text(encoding="utf-8"), str(path))
-        except InvalidDefinition as error:
-            raise self._adapter(error) from None
-        except (OSError, UnicodeDecodeError) as error:
-            raise self._adapter_text(f"{type(error).__name__}: {error}", f"{name} must be plain text.") from None
-
-    def _adapter(self, error: InvalidDefinition) -> BuildFailure:
-        text = f"{error.qualified_ros_error}: {error.reason}"
-        if error.printed:
-            text = f"{error.printed}\n\n{text}"
-        elif error.line_text is not None and error.interface and error.ros_error != "ValueError":
-            package, _, kind = error.interface.split("/")
-            text = f"Error processing '{error.line_text}' of '{package}/{kind}': '{error.reason}'\n\n{text}"
-        if error.file is None:
-            return self._adapter_text(text, error.hint)
-        hint = error.hint
-        if error.line is None and error.ros_error == "InvalidResourceName":
-            words = re.split(r"[^A-Za-z0-9]+", Path(error.file).stem)
-            good = "".join(word[:1].upper() + word[1:] for word in words) + Path(error.file).suffix
-            hint = f"Name the file {good}, beginning with a capital letter and without '_'"
-        return self._adapter_text(text, _located(shown_path(error.file), error.line, hint))
-
-    def _adapter_text(self, text: str, hint: str) -> BuildFailure:
-        whole = f"execute_process(/usr/bin/python3 -m rosidl_adapter) returned error code 1:\n\n{text}\n"
-        return refused(
-            whole, _ADAPT, hint, [f"{_GENERATE}:130 (rosidl_adapt_interfaces)", self._command.where], seconds=0.3
-        )
+    def _unreadable(self, error: InvalidDefinition) -> BuildFailure:
+        lines = [*filter(None, [error.printed]), f"{error.qualified_ros_error}: {error.reason}"]
+        text = "\n\n".join(["execute_process(/usr/bin/python3 -m rosidl_adapter) returned error code 1:", *lines])
+        stack = [f"{_GENERATE}:130 (rosidl_adapt_interfaces)", self._command.where]
+        return refused(f"{text}\n", _ADAPT, _located(error), stack, seconds=0.3)
 
 
-def _located(file: str, line: int | None, hint: str) -> str:
-    """A hint that begins with the place of the fault."""
-    where = file if line is None else f"{file}, line {line}"
-    return f"{where}: {hint}" if hint else f"It is in {where}."
+def _located(error: InvalidDefinition) -> str:
+    """The hint of a fault, after its place."""
+    where = shown_path(error.file or "") + ("" if error.line is None else f", line {error.line}")
+    return f"{where}: {error.hint}" if error.hint else f"It is in {where}."
 
 
 def interface_items(found: Found, files: list[str]) -> Iterator[Item]:
