@@ -160,7 +160,7 @@ def test_an_entry_point_with_a_wrong_function(workspace: Workspace) -> None:
     workspace.change("setup.py", "demo.talker:main", "demo.talker:mian")
     assert "Hint: entry point 'talker': demo.talker has no mian(), so `ros2 run` will fail." in workspace.build()
     printed = workspace.type("ros2 run demo talker")
-    assert "ImportError: cannot import name 'mian' from 'demo.talker'" in printed
+    assert "AttributeError: module 'demo.talker' has no attribute 'mian'" in printed
     assert printed.endswith("Did you mean 'main'?\n[ros2run]: Process exited with failure 1\n")
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import keyword
 import os
 import re
 from glob import glob
@@ -199,7 +198,7 @@ class _Build:
                 raise _refused(text, f"It looks like 'my_node = {self.found.name}.my_node:main'.")
             name, module, function = match[1], match[2], match[3]
             self._check_entry(name, module, function)
-            text = filled("entry point", line=line.strip(), imports=_imports(module, function), function=function)
+            text = filled("entry point", line=line.strip(), module=module, function=function)
             items.append(Item(f"{place or 'bin'}/{name}", text=text, program=True))
         if items and place != f"lib/{self.found.name}":
             self.hints.append(
@@ -227,14 +226,6 @@ class _Build:
 
 def _refused(text: str, hint: str) -> BuildFailure:
     return BuildFailure(f"{text}\n", hint, seconds=0.5)
-
-
-def _imports(module: str, function: str) -> str:
-    """The lines that import `function`. A name such as 2_turtles.py suits no `import`, but is loaded all the same."""
-    first = function.partition(".")[0]
-    if all(part.isidentifier() and not keyword.iskeyword(part) for part in module.split(".")):
-        return f"import sys\n\nfrom {module} import {first}"
-    return f"import importlib\nimport sys\n\n{first} = importlib.import_module({module!r}).{first}"
 
 
 def _texts(given: Any) -> list[str]:

@@ -102,8 +102,8 @@ class Builder:
             if self.code and not self.plan.go_on:
                 for job in self.running:
                     self.ended["aborted"].append(job.found.name)
-                    seconds = as_seconds(self.now - job.began + 0.05)
-                    self._say("console_start_end", f"Aborted  <<< {job.found.name} [{seconds}]")
+                    seconds = self.now - job.began + 0.05
+                    self._say("console_start_end", f"Aborted  <<< {job.found.name} [{seconds:.2f}s]")
                 break
         write_setup_files(self.plan.install)
         self._pass(_END)
@@ -190,19 +190,16 @@ class Builder:
         if outcome.stderr:
             self.ended["had stderr output"].append(name)
         self.ended["failed" if outcome.code else "finished"].append(name)
-        seconds = as_seconds(outcome.seconds)
         if outcome.code:
-            text = f"Failed   <<< {name} [{seconds}, exited with code {outcome.code}]"
+            text = f"Failed   <<< {name} [{outcome.seconds:.2f}s, exited with code {outcome.code}]"
             self._say("console_start_end", text, self.err)
         else:
-            self._say("console_start_end", f"Finished <<< {name} [{seconds}]")
+            self._say("console_start_end", f"Finished <<< {name} [{outcome.seconds:.2f}s]")
 
     def _show_output(self, name: str, outcome: Outcome) -> None:
         stdout, stderr = outcome.stdout, outcome.stderr
-        log = self.plan.log / "latest_build"
-        if log.is_file():  # an earlier version wrote the folder's name into it, on a computer without links
-            log.unlink()
-        files.save(log / name / "stdout_stderr.log", "".join(f"{line}\n" for line in stdout) + stderr)
+        log = self.plan.log / "latest_build" / name / "stdout_stderr.log"
+        files.save(log, "".join(f"{line}\n" for line in stdout) + stderr)
         for line in stdout:
             self._say("console_direct", line)
         if stderr:
@@ -216,7 +213,7 @@ class Builder:
 
     def _summarise(self) -> None:
         finished, *others = self.ended.items()
-        lines = [f"\nSummary: {_packages(len(finished[1]))} finished [{as_seconds(self.now)}]"]
+        lines = [f"\nSummary: {_packages(len(finished[1]))} finished [{self.now:.2f}s]"]
         lines += [f"  {_packages(len(names))} {how}: {' '.join(sorted(names))}" for how, names in others if names]
         if self.waiting:
             lines.append(f"  {_packages(len(self.waiting))} not processed")
@@ -243,14 +240,6 @@ def _listed(word: str, names: list[str]) -> str:
     """`without talker, listener`, of many names the first ones; nothing without names."""
     more = f" and {len(names) - 8} more" if len(names) > 8 else ""
     return f"{word} {', '.join(names[:8])}{more}" if names else ""
-
-
-def as_seconds(seconds: float) -> str:
-    """A duration as colcon writes it: `5.90s`, `1min 2s`."""
-    if seconds < 60:
-        return f"{seconds:.2f}s"
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}min {rest}s"
 
 
 def _packages(count: int) -> str:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from difflib import SequenceMatcher
 from pathlib import Path
 
-from ..idl.names import did_you_mean
+from ..idl.names import did_you_mean, nearest
 from ..sim.errors import shown_path
 from .cmake import compiled_programs
 from .package import (
@@ -23,6 +22,9 @@ from .package import (
 )
 
 _given: list[PackageIndex] = []
+
+_SLIP = 0.885
+"""How much alike two names of packages must be for one of them to be a slip: `lifecycle_py` is none of `lifecycle`."""
 
 
 class PackageIndex:
@@ -90,13 +92,13 @@ class LaunchedPackages(PackageIndex):
 
     def get(self, name: str) -> Package:
         """The package of this name, an absent one included."""
-        if _why_absent(name, self._layers):
+        if _is_absent(name, self._layers):
             return Package(name, _PLACE / name)
         return super().get(name)
 
     def executable(self, package: str, executable: str) -> Target:
         """What runs as `executable` of a package. Raises NotHereError, too, if only a robot can start it."""
-        if _why_absent(package, self._layers):
+        if _is_absent(package, self._layers):
             raise left_out(package if package == executable else f"{executable} of {package}", package)
         try:
             return super().executable(package, executable)
@@ -106,28 +108,15 @@ class LaunchedPackages(PackageIndex):
 
 def package_hint(name: str, known: Iterable[str]) -> str:
     """What is known about a package that is not there: which one was perhaps meant, or that only robots have it."""
-    known = list(known)
-    why = _why_absent(name, known)
-    return f"{name} is not available here: {why}." if why else _package_meant(name, known)
+    if near := nearest(name, known, _SLIP):
+        return f"Did you mean '{near}'?"
+    why = why_not_here(name)
+    return f"{name} is not available here: {why}." if why else ""
 
 
-def _why_absent(name: str, known: Iterable[str]) -> str:
-    """Why a package is only on robots; nothing for one that is known, and for what is the slip of one that is known."""
-    why = "" if name in known else why_not_here(name)
-    return "" if why and _package_meant(name, known) else why
-
-
-def _package_meant(name: str, known: Iterable[str]) -> str:
-    return did_you_mean(name, [each for each in known if _close_in_all_words(name, each)])
-
-
-def _close_in_all_words(one: str, other: str) -> bool:
-    """Whether two names may be one package's: `lifecycle_py` is another than `lifecycle`, and `a_cpp` another than `a_py`."""
-    if one.replace("_", "") == other.replace("_", ""):
-        return True
-    words, others = one.split("_"), other.split("_")
-    close = (SequenceMatcher(None, *pair).ratio() > 0.78 for pair in zip(words, others, strict=False))
-    return len(words) == len(others) and all(close)
+def _is_absent(name: str, known: Iterable[str]) -> bool:
+    """Whether a package is only on robots: neither known nor the slip of one that is."""
+    return not nearest(name, known, _SLIP) and bool(why_not_here(name))
 
 
 def _no_executable(package: Package, executable: str) -> ExecutableNotFoundError:
