@@ -63,13 +63,6 @@ class Kind:
         return self.member.type == FieldType("float32")
 
     @property
-    def shown_default(self) -> str:
-        """The default as a signature shows it."""
-        if self.element_class is not None and not self.member.type.is_array:
-            return f"{self.element_class.__name__}()"
-        return self.fresh.replace("_numpy_", "numpy.").replace("_array('", "array('")
-
-    @property
     def lines(self) -> int:
         """How many fields stand where this one is written out."""
         return 1 + sum(kind.lines for kind in self.inner)
@@ -220,7 +213,7 @@ def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
     same = [kind.same.format(value=f"self._{kind.name}", other=f"other._{kind.name}") for kind in kinds]
     arguments, construct = "*, " if kinds else "", []
     for kind in kinds:
-        default = kind.fresh if kind.shares_default else f"_unset_{name}_{kind.name}"
+        default = kind.fresh if kind.shares_default else "..."  # which stands for a fresh value
         value = kind.construct.format(value=kind.name) or _stored(kind, kind.name)
         arguments += f"{kind.name}={default}, "
         given = value if kind.shares_default else f"{kind.fresh} if {kind.name} is {default} else {value}"

@@ -126,9 +126,6 @@ class _Builder:
         written_out = list(_with_inner(kinds))
         for kind in written_out:
             self._globals.update(kind.objects)
-        for kind in kinds:
-            if not kind.shares_default:
-                self._globals[f"_unset_{name}_{kind.name}"] = message.Unset(kind.shown_default)
         if rounded := sum(kind.is_float32 for kind in written_out):
             packing = Struct(f"{rounded}f")  # rounds them to float32
             self._globals.update({f"_pack_{rounded}": packing.pack, f"_unpack_{rounded}": packing.unpack})

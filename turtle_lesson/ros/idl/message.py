@@ -22,18 +22,6 @@ class TypeSupport:
     name: str
 
 
-class Unset:
-    """Default of a constructor argument that stands for a fresh value; shows as that value in a signature."""
-
-    __slots__ = ("_text",)
-
-    def __init__(self, text: str) -> None:
-        self._text = text
-
-    def __repr__(self) -> str:
-        return self._text
-
-
 def message_repr(message: Any) -> str:
     """`geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)`."""
     kind = type(message)
