@@ -225,15 +225,15 @@ def refusal(text: str) -> InvalidDefinition:
         ("float32 x nan", "value 'nan' cannot be written in a form that a build accepts. Set it in the program"),
         ("float64 X=-inf", "value '-inf' cannot be written in a form"),
         ("float64[] x [1.0, inf]", "value 'inf' cannot be written in a form"),
-        ("float32 x 1e39", "value '1e+39' is too large for float32"),
+        ("float32 x 1e39", "value '1e+39' cannot be written in a form"),
         ("float64 x 1e999", "value 'inf' cannot be written in a form"),
-        (r'string s "two\nlines"', "has a backslash: escapes are not available here"),
-        (r"string S='\x4'", "Set the text in the program"),
+        (r'string s "two\nlines"', "cannot be written in a form that a build accepts"),
+        (r"string S='\x4'", "Set it in the program"),
         (r"string<=2 s '\nab'", "value '\\nab' can not be converted to type 'string<=2'"),
-        ("string<=3 s 'ab\\", "must not exceed|has a backslash"),
+        ("string<=3 s 'ab\\", "must not exceed|cannot be written"),
         (
             "float64[1000000000000] x",
-            "would consist of 1,000,000,000,002 values, which is more than fits into memory here",
+            "would consist of 1,000,000,000,002 values, which is more than fits into memory",
         ),
         ("string[20000000] x", "A sequence such as float64[] is as long as what is in it"),
         ("geometry_msgs/Pose[2000000] x", "would consist of"),
@@ -244,18 +244,8 @@ def test_what_no_build_gets_through_is_refused_with_its_line(line: str, said: st
 
     error = refusal(line)
     assert any(re.search(re.escape(each), str(error)) for each in said.split("|")), str(error)
-    if "would consist" not in str(error):
-        assert (error.line, error.interface) == (2, "demo_msgs/msg/Demo")
-        assert str(error).startswith("demo_msgs/msg/Demo, line 2, '")
-
-
-def test_a_file_cannot_have_the_name_of_a_word_of_python(tmp_path: Path) -> None:
-    registry = Registry()
-    registry.add("odd_msgs", write_package(tmp_path, {"msg/None.msg": "int8 x\n", "msg/Fine.msg": "None none\n"}))
-    faults = faults_of(registry, "odd_msgs")
-    assert {str(fault) for fault in faults} == {
-        "odd_msgs/msg/None.msg: 'None' is a keyword of Python, which cannot be the name of a class"
-    }
+    assert (error.line, error.interface) == (2, "demo_msgs/msg/Demo")
+    assert str(error).startswith("demo_msgs/msg/Demo, line 2, '")
 
 
 def test_large_messages_are_made_and_travel_in_reasonable_time() -> None:

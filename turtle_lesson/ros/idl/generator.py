@@ -19,7 +19,6 @@ from functools import cache
 from hashlib import sha256
 from importlib.util import MAGIC_NUMBER
 from io import FileIO
-from math import isfinite
 from pathlib import Path
 from struct import Struct
 from types import CodeType, ModuleType
@@ -98,29 +97,26 @@ class _Builder:
 
     def _add_message(self, definition: Definition) -> None:
         name = definition.name
-        member: Field | Constant | None = None
-        try:
-            if keyword.iskeyword(name):
-                reason = f"'{name}' is a keyword of Python, which cannot be the name of a class"
-                raise InvalidDefinition(reason, "InvalidResourceName")
-            kinds, weight = [], 1
-            for member in definition.fields:
+        kinds, weight = [], 1
+        member: Field | Constant
+        for member in (*definition.fields, *definition.constants):
+            try:
+                if isinstance(member, Constant):
+                    check_value(member.type, member.value)
+                    continue
                 kinds.append(self._kind(definition, member))
                 weight += weight_of(member.type, kinds[-1].element_class)
-            for member in definition.constants:
-                check_value(member.type, member.value)
-            if weight > MAX_WEIGHT:
-                member = None
-                reason = (
-                    f"each message {name} would consist of {weight:,} values, which is more than fits into memory here"
-                )
-                hint = "A sequence such as float64[] is as long as what is in it"
-                raise InvalidDefinition(reason, "TypeError", hint=hint)
-        except InvalidDefinition as error:
-            line, text = (None, None) if member is None else (member.line or None, str(member))
-            raise error.locate(
-                interface=definition.full_name, file=definition.file, line=line, line_text=text
-            ) from None
+                if weight > MAX_WEIGHT:
+                    reason = (
+                        f"each message {name} would consist of {weight:,} values, which is more than fits into memory"
+                    )
+                    hint = "A sequence such as float64[] is as long as what is in it"
+                    raise InvalidDefinition(reason, "TypeError", hint=hint)
+            except InvalidDefinition as error:
+                line, text = member.line or None, str(member)
+                raise error.locate(
+                    interface=definition.full_name, file=definition.file, line=line, line_text=text
+                ) from None
         self._globals[f"_kinds_{name}"] = tuple(kinds)
         self._globals[f"_slot_types_{name}"] = tuple(slot_type(field.type) for field in definition.fields)
         written_out = list(_with_inner(kinds))
@@ -212,17 +208,10 @@ def check_buildable(field: Field) -> None:
 
 def check_value(base: str, value: Plain) -> None:
     """Raise InvalidDefinition for a default value or constant that no build gets through, or only as another value."""
-    reason, hint = "", ""
-    if isinstance(value, str) and "\\" in value:
-        reason = f"value '{value}' has a backslash: escapes are not available here"
-        hint = "Set the text in the program"
-    elif isinstance(value, float) and not isfinite(value):
+    is_wrong_number = isinstance(value, float) and not abs(value) <= bounds(base)[1]
+    if is_wrong_number or (isinstance(value, str) and "\\" in value):
         reason = f"value '{value}' cannot be written in a form that a build accepts"
-        hint = "Set it in the program: float('nan'), float('inf')"
-    elif isinstance(value, float) and abs(value) > bounds(base)[1]:
-        reason = f"value '{value}' is too large for {base}"
-    if reason:
-        raise InvalidDefinition(reason, "InvalidValue", hint=hint)
+        raise InvalidDefinition(reason, "InvalidValue", hint="Set it in the program")
 
 
 # -- the user's cache folder -------------------------------------------------------------------------------------------

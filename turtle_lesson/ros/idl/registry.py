@@ -108,10 +108,7 @@ class Package:
         if self.files is not None and path.is_file():
             return f"{interface}{path.suffix} is there, but CMakeLists.txt does not name it"
         folder, _, name = interface.partition("/")
-        whole, known = names.without_part(name), self.names_in(folder)
-        if whole != name and whole in known:
-            return f"Import {whole} and write {whole}.{name.rpartition('_')[2]}"
-        return names.did_you_mean(name, known)
+        return names.did_you_mean(name, self.names_in(folder))
 
 
 class Registry:
