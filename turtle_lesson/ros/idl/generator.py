@@ -98,8 +98,8 @@ class _Builder:
     def _add_message(self, definition: Definition) -> None:
         name = definition.name
         kinds, weight = [], 1
-        member: Field | Constant
-        for member in (*definition.fields, *definition.constants):
+        members: list[Field | Constant] = [*definition.fields, *definition.constants]
+        for member in members:
             try:
                 if isinstance(member, Constant):
                     check_value(member.type, member.value)
