@@ -111,7 +111,7 @@ def test_no_suggestion_is_looked_for_where_all_modules_are_asked(demo, monkeypat
 
 
 def test_parts_of_a_service_are_not_imported_as_in_humble(demo):
-    with pytest.raises(ImportError, match="Did you mean 'Charge'?"):
+    with pytest.raises(ImportError, match=r"Did you mean 'Charge'\?"):
         from demo_msgs.srv import Charge_Request  # noqa: F401
 
 

@@ -49,22 +49,6 @@ DEFAULTS = {
 
 
 @dataclass
-class Plan:
-    """What one `colcon build` was asked for."""
-
-    packages: list[Found]
-    workspace: list[Found]
-    install: Path
-    build: Path
-    log: Path
-    symlink: bool
-    merged: bool
-    go_on: bool
-    workers: int
-    handlers: dict[str, bool]
-
-
-@dataclass
 class _Job:
     found: Found
     environment: Environment
@@ -73,25 +57,35 @@ class _Job:
     ends: float
 
 
+@dataclass
 class Builder:
-    """One run of `colcon build`."""
+    """One run of `colcon build`, and what it was asked for."""
 
-    def __init__(self, world: World, plan: Plan, out: TextIO, err: TextIO) -> None:
-        self.world = world
-        self.plan = plan
-        self.out, self.err = out, err
-        self.handlers = {**DEFAULTS, **plan.handlers}
+    world: World
+    packages: list[Found]
+    workspace: list[Found]
+    install: Path
+    build: Path
+    log: Path
+    symlink: bool
+    layout: str
+    go_on: bool
+    workers: int
+    handlers: dict[str, bool]
+    out: TextIO
+    err: TextIO
+
+    def __post_init__(self) -> None:
         self.now = 0.0
         self.code = 0
         self.outcomes: dict[str, Outcome] = {}
-        self.waiting = [found for found in in_order(plan.packages) if found.buildable]
+        self.waiting = [found for found in in_order(self.packages) if found.buildable]
         self.running: list[_Job] = []
         self.ended: dict[str, list[str]] = {"finished": [], "failed": [], "aborted": [], "had stderr output": []}
 
     def run(self) -> int:
         """Build the plan's packages; return colcon's exit code."""
-        layout = "merged" if self.plan.merged else "isolated"
-        prepare(self.plan.install, self.plan.build, self.plan.log, layout)
+        prepare(self.install, self.build, self.log, self.layout)
         self._pass(_BEGIN)
         self._say("console_package_list", "\n- ".join(["Topological order", *(found.name for found in self.waiting)]))
         while self.waiting or self.running:
@@ -99,13 +93,13 @@ class Builder:
             if not self.running:
                 break  # what is left depends on what failed
             self._end(min(self.running, key=lambda job: job.ends))
-            if self.code and not self.plan.go_on:
+            if self.code and not self.go_on:
                 for job in self.running:
                     self.ended["aborted"].append(job.found.name)
                     seconds = self.now - job.began + 0.05
                     self._say("console_start_end", f"Aborted  <<< {job.found.name} [{seconds:.2f}s]")
                 break
-        write_setup_files(self.plan.install)
+        write_setup_files(self.install)
         self._pass(_END)
         self._summarise()
         self._warn_of_cpp()
@@ -126,9 +120,9 @@ class Builder:
     # -- one package -----------------------------------------------------------------------------------------------
 
     def _start(self) -> None:
-        own = {found.name for found in self.plan.packages if found.buildable}
+        own = {found.name for found in self.packages if found.buildable}
         for found in list(self.waiting):
-            if len(self.running) >= self.plan.workers:
+            if len(self.running) >= self.workers:
                 return
             if set(found.dependencies) & own - {found.name} <= {*self.ended["finished"]}:
                 self.waiting.remove(found)
@@ -142,19 +136,19 @@ class Builder:
 
     def _missing(self, found: Found) -> str:
         """What colcon says where packages of this workspace are needed and neither built nor sourced."""
-        there = {found.name, *self.world.packages.names(), *installed_names(self.plan.install)}
-        needed = needed_by(self.plan.workspace, [found.name]) - there
-        lacking = [each.name for each in self.plan.workspace if each.name in needed]
+        there = {found.name, *self.world.packages.names(), *installed_names(self.install)}
+        needed = needed_by(self.workspace, [found.name]) - there
+        lacking = [each.name for each in self.workspace if each.name in needed]
         if not lacking:
             return ""
-        scripts = [shown_path(str(prefix_of(self.plan.install, name) / f"share/{name}/package.sh")) for name in lacking]
+        scripts = [shown_path(str(prefix_of(self.install, name) / f"share/{name}/package.sh")) for name in lacking]
         text = "\n- ".join(["Failed to find the following files:", *scripts])
         text += "\n- ".join(["\nCheck that the following packages have been built:", *lacking])
         return f"{text}\nHint: colcon build --packages-up-to {found.name} builds them first."
 
     def _environment(self, found: Found) -> Environment:
         """What the package may use: what is sourced, and those of this workspace that package.xml names."""
-        install = self.plan.install
+        install = self.install
         installed = {*installed_names(install)} - {found.name}
         needed = reached(
             installed.intersection(found.dependencies),
@@ -166,7 +160,7 @@ class Builder:
         )
         # Packages that are sourced are found, too, but not an older build of the package itself.
         findable = frozenset({*self.world.packages.names(), *needed} - {found.name})
-        return Environment(install, self.plan.build, findable, types, self.plan.symlink)
+        return Environment(install, self.build, findable, types, self.symlink)
 
     def _end(self, job: _Job) -> None:
         self._pass(max(0.0, job.ends - self.now))
@@ -179,7 +173,7 @@ class Builder:
                 outcome.code = 1
                 outcome.stderr += f"error: {name} cannot be installed: {error.strerror or error}: {error.filename}\n"
             else:
-                resource(self.world, self.plan.install, name)
+                resource(self.world, self.install, name)
         self.outcomes[name] = outcome
         self.code = self.code or outcome.code
         if outcome.colcon_error:
@@ -198,7 +192,7 @@ class Builder:
 
     def _show_output(self, name: str, outcome: Outcome) -> None:
         stdout, stderr = outcome.stdout, outcome.stderr
-        log = self.plan.log / "latest_build" / name / "stdout_stderr.log"
+        log = self.log / "latest_build" / name / "stdout_stderr.log"
         files.save(log, "".join(f"{line}\n" for line in stdout) + stderr)
         for line in stdout:
             self._say("console_direct", line)
@@ -224,7 +218,7 @@ class Builder:
         lines = []
         for name, outcome in sorted(self.outcomes.items()):
             if outcome.left_out or outcome.lacking:
-                needing = [found.name for found in self.plan.workspace if name in found.dependencies]
+                needing = [found.name for found in self.workspace if name in found.dependencies]
                 parts = [
                     _listed("without", outcome.left_out),
                     _listed("needs", outcome.lacking) + (", not here" if outcome.lacking else ""),

@@ -67,11 +67,10 @@ def source(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cw
 
 @dataclass
 class _Overlay:
-    """One sourced package, and what it hides in the registry of interfaces."""
+    """One sourced package, and the install folder that it is in."""
 
     install: Path
     package: Package
-    hidden: tuple[Path, tuple[str, ...] | None] | None
 
 
 class _Overlays(list[_Overlay]):
@@ -105,11 +104,7 @@ def _add(world: World, install: Path, name: str) -> None:
     for each in _sourced(world, install, name):
         _remove(world, each)
     package = read_installed(install, name)
-    hidden = None  # the interfaces of this name that were added before; a built-in package shows again by itself
-    if package.interfaces and registry.was_added(name):
-        before = registry.package(name)
-        hidden = before.directory, before.files
-    overlays(world).append(_Overlay(install, package, hidden))
+    overlays(world).append(_Overlay(install, package))
     _show(world, package)
 
 
@@ -129,8 +124,8 @@ def _remove(world: World, each: _Overlay) -> None:
     is_known = bool(package.interfaces) and package.name in registry.packages()
     if is_known and registry.package(package.name).directory == package.share:
         registry.remove(package.name)  # unless somebody else has put another in its place
-        if each.hidden is not None:
-            registry.add(package.name, *each.hidden)
+        if package.name in world.packages and (hidden := world.packages.get(package.name)).interfaces:
+            registry.add(package.name, hidden.share, hidden.interfaces)
     shared = {path for other in overlays(world) for path in other.package.modules}  # in a merged install folder
     _forget(package, {*package.modules} - shared)
 

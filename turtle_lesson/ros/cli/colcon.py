@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import TextIO
 
-from ..ament.build import DEFAULTS, Builder, Plan
+from ..ament.build import DEFAULTS, Builder
 from ..ament.manifest import Found, build_type_hint, discover, in_order, needed_by
 from ..ament.package import ColconError
 from ..idl.names import did_you_mean
@@ -147,24 +147,27 @@ class _Command:
         if not workspace:
             where = "Are you in the workspace's folder, which contains src/?"
             self.err.write(f"Hint: no folder here has a package.xml; ros2 pkg create makes one. {where}\n")
-        plan = Plan(
+        builder = Builder(
+            world=self.world,
             packages=chosen,
             install=self.cwd / args.install_base,
             build=self.cwd / args.build_base,
             log=self.cwd / "log",
             workspace=workspace,
             symlink=args.symlink_install,
-            merged=args.merge_install,
+            layout="merged" if args.merge_install else "isolated",
             go_on=args.continue_on_error,
             workers=1 if args.executor == "sequential" else max(1, args.parallel_workers),
-            handlers={word[:-1]: word.endswith("+") for word in args.event_handlers},
+            handlers=DEFAULTS | {word[:-1]: word.endswith("+") for word in args.event_handlers},
+            out=self.out,
+            err=self.err,
         )
-        for folder in (plan.install, plan.build):
+        for folder in (builder.install, builder.build):
             if any(each.path.is_relative_to(folder.resolve() / each.name) for each in workspace):
                 raise ColconError(f"{folder.name} is the folder of the sources; choose another folder")
         if self.cwd.name == "src" and workspace and not (self.cwd / "src").is_dir():
             self.err.write("Hint: install/ is made here, in src/; packages are usually built in the folder above.\n")
-        return Builder(self.world, plan, self.out, self.err).run()
+        return builder.run()
 
 
 _SELECTION = (
