@@ -13,13 +13,12 @@ from ..idl.names import did_you_mean
 from ..sim.errors import shown_path
 from .cmake import Command, compiled, evaluate
 from .cmake_commands import (
-    Entry,
     InterfaceCheck,
     definitions,
-    install_entries,
+    files_to_install,
+    first_line,
     install_items,
     interface_items,
-    runs_python,
 )
 from .index import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, package_hint, why_not_here
 from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, names_in, prefix_of, with_hint
@@ -60,7 +59,7 @@ class _Build:
         self.checks: list[InterfaceCheck] = []
         self.warnings: list[str] = []
         self.hints: list[str] = []
-        self.entries: list[Entry] = []
+        self.installs: list[tuple[Command, str]] = []
         self.python: list[Item] = []
         self.cpp: dict[str, int] = {}
         self.lacking: list[str] = []
@@ -84,8 +83,13 @@ class _Build:
             types.add(self.found.name, self.found.path, tuple(self.interfaces))
             for check in self.checks:
                 check.resolve(types)
-        wanted = [entry for entry in self.entries if runs_python(entry)]
-        items = [item for entry in wanted for item in install_items(self.found, entry, self.hints)]
+        items, left_out = list[Item](), list(self.cpp)
+        for command, name in self.installs:
+            first = first_line(self.found.path / name) if command.args[0] == "PROGRAMS" else ""
+            if first.startswith("#!") and "python" not in first:
+                left_out.append(command.after("RENAME") or os.path.basename(name))
+            else:
+                items += install_items(self.found, command, name, self.hints)
         items += [*self.python, *interface_items(self.found, self.interfaces)] if self.checks else self.python
         check_targets(items, self.found.name)
         self.hints += self._advice(items)
@@ -98,7 +102,7 @@ class _Build:
             stdout=[*stdout, "-- Configuring done", "-- Generating done"],
             seconds=2.0 * changed,
             items=items,
-            left_out=[*self.cpp, *(entry.name for entry in self.entries if entry not in wanted)],
+            left_out=left_out,
             lacking=self.lacking,
         )
 
@@ -147,7 +151,8 @@ class _Build:
             case "message":
                 self._message(command)
             case "install":
-                self.entries += install_entries(self.found, command, cpp=bool(self.cpp))
+                names = files_to_install(self.found, command, cpp=bool(self.cpp))
+                self.installs += [(command, name) for name in names]
             case "rosidl_generate_interfaces":
                 check = InterfaceCheck(self.found, command)
                 check.configure("ament_package" in self.called, self.seen)

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import dropwhile
 from pathlib import Path
 
@@ -28,22 +27,8 @@ _INSTALL_WORDS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A file or folder that an `install(…)` names, the folder it goes to, and its name there.
-
-    A folder whose name ends in `/` gives its content instead of itself, as in CMake, and has no name.
-    """
-
-    kind: str
-    source: Path
-    destination: str
-    name: str
-    command: Command
-
-
-def install_entries(found: Found, command: Command, *, cpp: bool) -> list[Entry]:
-    """What one `install(…)` names, where the package builds C++ without its targets.
+def files_to_install(found: Found, command: Command, *, cpp: bool) -> list[str]:
+    """The files or folders that one `install(…)` names, none for targets of a package that builds C++.
 
     Raises BuildFailure where CMake would refuse it.
     """
@@ -61,61 +46,49 @@ def install_entries(found: Found, command: Command, *, cpp: bool) -> list[Entry]
         if (found.path / name).is_dir():
             hint = f"Write install(DIRECTORY {name} …)."
             raise refused(f'install {kind} given directory "{name}" to install.', command.where, hint)
-    destination, rename = command.after("DESTINATION"), command.after("RENAME")
-    if rename and len(files) > 1:
+    if command.after("RENAME") and len(files) > 1:
         hint = "RENAME gives a single name, so install one program at a time: install(PROGRAMS a.py …)."
         raise refused(f"install {kind} given RENAME option with more than one file.", command.where, hint)
-    if not destination:
+    if not command.after("DESTINATION"):
         hint = f"install({kind} …) needs a DESTINATION, such as lib/${{PROJECT_NAME}}."
         raise refused(f"install {kind} given no DESTINATION!", command.where, hint)
-    return [
-        Entry(
-            kind=kind,
-            source=found.path / name,
-            destination=destination.rstrip("/"),
-            name="" if kind == "DIRECTORY" and name.endswith("/") else rename or Path(name).name,
-            command=command,
-        )
-        for name in files
-    ]
+    return files
 
 
-def runs_python(entry: Entry) -> bool:
-    """Whether an entry is no program, or one whose first line names no interpreter but Python."""
-    first = _first_line(entry.source) if entry.kind == "PROGRAMS" else ""
-    return not first.startswith("#!") or "python" in first
+def install_items(found: Found, command: Command, name: str, hints: list[str]) -> Iterator[Item]:
+    """Where a file goes that an `install(…)` names, or a folder, file by file; its content alone if its name ends in `/`.
 
-
-def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item]:
-    """Where one entry goes, a folder file by file. What would be wrong on a robot although it builds is added to `hints`."""
-    source, is_program, at = entry.source, entry.kind == "PROGRAMS", f"CMakeLists.txt, line {entry.command.line}"
-    shown = os.path.relpath(source, found.path)
+    What would be wrong on a robot although it builds is added to `hints`.
+    """
+    source, is_program, at = found.path / name, command.args[0] == "PROGRAMS", f"CMakeLists.txt, line {command.line}"
+    destination, shown = command.after("DESTINATION").rstrip("/"), os.path.relpath(source, found.path)
     if not source.resolve().is_relative_to(found.path.resolve()):
         text = f"{shown} lies outside the package's folder"
-        raise refused(text, entry.command.where, "Put the files into the package.")
+        raise refused(text, command.where, "Put the files into the package.")
     if not source.exists():
         text = f'file INSTALL cannot find "{shown_path(str(source))}": No such file or directory.'
         close = did_you_mean(shown, names_in(found.path, ".py" if is_program else ""))
         hint = f"{at}, names '{shown}', which does not exist. {close}".strip()
         raise refused(text, "cmake_install.cmake:46 (file)", hint, seconds=1.2)
-    target = "/".join(filter(None, (entry.destination, entry.name)))
+    own_name = "" if source.is_dir() and name.endswith("/") else command.after("RENAME") or source.name
+    target = "/".join(filter(None, (destination, own_name)))
     # Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can. Patterns have no effect.
-    options = until({"PATTERN", "REGEX"}, entry.command.args)
+    options = until({"PATTERN", "REGEX"}, command.args)
     runs = is_program or "OWNER_EXECUTE" in options
     if not source.is_dir():
-        if is_program and entry.destination != f"lib/{found.name}":
-            hints.append(f"{at}: {shown} goes to {entry.destination}; ros2 run looks only in lib/${{PROJECT_NAME}}.")
-        elif is_program and not _first_line(source).startswith("#!"):
+        if is_program and destination != f"lib/{found.name}":
+            hints.append(f"{at}: {shown} goes to {destination}; ros2 run looks only in lib/${{PROJECT_NAME}}.")
+        elif is_program and not first_line(source).startswith("#!"):
             hints.append(
                 f"{shown} does not begin with '#!/usr/bin/env python3': a real ROS 2 could not start it (Exec format error)."
             )
         yield Item(target, source, program=runs)
         return
     items = []
-    for name in names_in(source):
-        can_run = runs or ("USE_SOURCE_PERMISSIONS" in options and os.access(source / name, os.X_OK))
-        items.append(Item("/".join(filter(None, (target, name))), source / name, program=can_run))
-    if entry.destination == f"lib/{found.name}" and items and not any(item.program for item in items):
+    for inner in names_in(source):
+        can_run = runs or ("USE_SOURCE_PERMISSIONS" in options and os.access(source / inner, os.X_OK))
+        items.append(Item("/".join(filter(None, (target, inner))), source / inner, program=can_run))
+    if destination == f"lib/{found.name}" and items and not any(item.program for item in items):
         hints.append(
             f"{at}: what install(DIRECTORY …) installs cannot be run. Write "
             "install(PROGRAMS <file>.py … DESTINATION lib/${PROJECT_NAME}), or add USE_SOURCE_PERMISSIONS."
@@ -123,7 +96,7 @@ def install_items(found: Found, entry: Entry, hints: list[str]) -> Iterator[Item
     yield from items
 
 
-def _first_line(file: Path) -> str:
+def first_line(file: Path) -> str:
     """The first line of a program; nothing where there is no file."""
     if not file.is_file():
         return ""
