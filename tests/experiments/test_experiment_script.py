@@ -86,7 +86,7 @@ def test_the_exit_code_is_0_if_all_runs_ended_well(
         (
             "from turtle_lesson.experiments import experiment\nexperiment(print, gain=1)\n",
             [],
-            "turtle-lesson run: print has no parameter 'gain'. There are: sep, end, file, flush.\n",
+            "turtle-lesson run: print cannot be called as print(lesson, gain=…): got an unexpected keyword argument 'gain'\n",
         ),
         ("x = 1\n", ["--csv", "a.txt"], 'a table is saved as "….csv" or "….parquet", got \'a.txt\'\n'),
         (None, [], "turtle-lesson run: there is no script it.py\n"),

@@ -48,12 +48,12 @@ def test_no_mark(lesson):
 
 
 WRONG = {
-    "seeds=0": "there are no seeds",
-    "seeds='many'": "seeds must be a list or range of whole numbers",
+    "seeds=0": "seeds must be one or more whole numbers, got range(0, 0)",
+    "seeds='many'": "seeds must be one or more whole numbers, got 'many'",
     "5": "give what you mean by name: @pytest.mark.worlds(seeds=5)",
-    "gian=[1.0]": "test_wrong has no parameter 'gian'. Did you mean \"gain\"?",
-    "rate=[1.0]": "rate has a default, which pytest never replaces",
-    "gain=[]": "gain has no values",
+    "gian=[1.0]": "gian is no parameter of the test",
+    "rate=[1.0]": "rate is no parameter of the test, or has a default, which pytest never replaces",
+    "gain=[]": "gain must be one or more numbers",
     "distro='indigo'": "distro must be one of the releases",
     "package='nowhere'": 'package must be "finished", "mine", None or the folder of a package, got \'nowhere\'',
     "start_order='random'": "start_order must be",

@@ -173,7 +173,7 @@ def test_a_run_that_is_in_no_table_and_comes_to_its_limit(capsys: pytest.Capture
     assert "Run 0 was over before this" in capsys.readouterr().out
     again.lesson.run(5)
     assert again.now == 8.0, "its world goes on for whoever looks at it"
-    with pytest.raises(ExperimentError, match="needs a value of 'gain'"):
+    with pytest.raises(ExperimentError, match="missing a required argument: 'gain'"):
         replay(drive)
 
 

@@ -14,11 +14,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from ..lab.words import count, suggestion
+from ..lab.words import count
 from ..ros.sim.strand import running_strand
 from ..session.lesson import check_world
 from . import one_run
-from .one_run import OK, OWN, PLAIN, Ending, ExperimentError, Run, name_of, plain
+from .one_run import OK, OWN, PLAIN, Ending, ExperimentError, Run, Setting, name_of, plain
 from .payload import setting_for
 from .pools import ClusterPool, LocalPool, cores
 from .replay import Replay
@@ -78,15 +78,14 @@ def experiment(
 
     Raises ExperimentError, a ValueError, for an experiment that cannot be carried out.
     """
-    _check_place()
-    _check_function(function, parameters)
-    runs = plan(seeds, parameters)
-    world = checked_world(package, distro, start_order)
-    check_limits(jobs, robot_time=robot_time, cpu_time=cpu_time)
+    world = {"package": package, "distro": distro, "start_order": start_order}
+    limits = {"robot_time": robot_time, "cpu_time": cpu_time}
+    runs, setting = _planned(function, seeds, parameters, simulator=simulator, **world, **limits)
+    if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= MOST_JOBS):
+        raise ExperimentError(f"jobs must be a whole number from 1 to {MOST_JOBS}, got {jobs!r}")
     if until not in (None, "failure"):
         raise ExperimentError(f'until must be "failure" or None, got {until!r}')
-    setting = setting_for(function, simulator=simulator, robot_time=robot_time, cpu_time=cpu_time, **world)
-    about = described(function, setting, world)
+    about = described(function, setting, world | {"package": package and str(package)})
     known = [] if resume is None else endings_of(resume, runs, about)
     smallest = None
     processes = min(jobs or defaults.get().jobs or cores(), max(len(runs) - len(known), 1))
@@ -118,12 +117,9 @@ def replay(
     It stands before the function's first line. The world is closed by the next `start()`, and the run ends with it. Raises
     ExperimentError for a run that cannot be carried out.
     """
-    _check_place()
-    _check_function(function, parameters)
-    [run] = plan([seed], {name: [value] for name, value in parameters.items()})
-    check_limits(None, robot_time=robot_time)
-    world = checked_world(package, distro, start_order)
-    setting = setting_for(function, simulator=simulator, robot_time=robot_time, **world)
+    one_each = {name: [value] for name, value in parameters.items()}
+    options = {"simulator": simulator, "start_order": start_order, "robot_time": robot_time}
+    [run], setting = _planned(function, [seed], one_each, package=package, distro=distro, **options)
     table = Results([], run.parameters)
     return Replay(setting, run, lambda ending: table.row_of(run, ending))
 
@@ -185,26 +181,17 @@ def search_failure(
     return done[: first + 1], found.change
 
 
-# -- the plan ------------------------------------------------------------------------------------------------------------
+# -- what is asked for ---------------------------------------------------------------------------------------------------
 
 
 def plan(seeds: Iterable[int], parameters: dict[str, Any]) -> list[Run]:
     """The runs of an experiment in their order. Raises ExperimentError."""
+    numbers = [plain(seed) for seed in seeds] if isinstance(seeds, Iterable) else []
+    if not numbers or any(type(seed) is not int for seed in numbers):
+        raise ExperimentError(f"seeds must be one or more whole numbers, got {seeds!r:.80}: try seeds=range(10)")
     swept = {name: _values(name, values) for name, values in parameters.items()}
-    combined = itertools.product(*swept.values(), _seeds(seeds))
+    combined = itertools.product(*swept.values(), numbers)
     return [Run(number, seed, dict(zip(swept, values, strict=True))) for number, (*values, seed) in enumerate(combined)]
-
-
-def _seeds(seeds: Any) -> list[int]:
-    try:
-        found = [plain(seed) for seed in seeds]
-    except TypeError:  # it cannot be iterated over
-        found = [None]
-    if isinstance(seeds, bytes) or any(isinstance(seed, bool) or not isinstance(seed, int) for seed in found):
-        raise ExperimentError(f"seeds must be a list or range of whole numbers, got {seeds!r:.80}: try seeds=range(10)")
-    if not found:
-        raise ExperimentError("there are no seeds, so there is nothing to run: try seeds=range(10)")
-    return found
 
 
 def _values(name: str, values: Any) -> list[Any]:
@@ -212,77 +199,47 @@ def _values(name: str, values: Any) -> list[Any]:
     if hasattr(values, "tolist"):
         values = values.tolist()
     found = [plain(value) for value in (values if isinstance(values, (list, range)) else [values])]
-    if not found:
-        raise ExperimentError(f"{name} has no values, so there is nothing to run: try {name}=[1.0, 2.0]")
-    for value in found:
-        if not _is_plain(value):
-            raise ExperimentError(
-                f"{name} must be numbers, texts, True, False, None or tuples of these, got {value!r:.80} "
-                f"({type(value).__name__})"
-            )
+    if not found or not all(map(_is_plain, found)):
+        kinds = "numbers, texts, True, False, None or tuples of these"
+        raise ExperimentError(f"{name} must be one or more {kinds}, got {values!r:.80}: try {name}=[1.0, 2.0]")
     return found
-
-
-# -- what is asked for ---------------------------------------------------------------------------------------------------
-
-
-def _check_place() -> None:
-    if running_strand() is not None:
-        raise ExperimentError("a simulated program cannot carry out an experiment: call it in a cell or a script")
-    if one_run.is_worker():
-        raise ExperimentError("a run of an experiment cannot carry out an experiment of its own")
-
-
-def _check_function(function: Callable[..., Any], parameters: dict[str, Any]) -> None:
-    if not callable(function):
-        raise ExperimentError(f"an experiment needs a function such as `def drive(lesson): …`, got {function!r:.80}")
-    name, signature, kinds = name_of(function), inspect.signature(function), inspect.Parameter
-    try:
-        signature.bind_partial(None)
-    except TypeError:
-        raise ExperimentError(f"{name} must take the lesson as its first parameter: def {name}(lesson): …") from None
-    accepted = list(signature.parameters.values())[1:]
-    known = [each.name for each in accepted if each.kind in (kinds.POSITIONAL_OR_KEYWORD, kinds.KEYWORD_ONLY)]
-    if not any(each.kind is kinds.VAR_KEYWORD for each in accepted):
-        check_names(name, parameters, known)
-    own = [each for each in known if each in inspect.signature(experiment).parameters]
-    own += [each for each in parameters if each in OWN]
-    if own:
-        raise ExperimentError(
-            f"{name} has a parameter {own[0]!r}, as experiment() or its table has: give it another name"
-        )
-    for parameter in accepted:
-        if parameter.name in known and parameter.default is kinds.empty and parameter.name not in parameters:
-            raise ExperimentError(
-                f"{name} needs a value of {parameter.name!r}: add {parameter.name}=[…] with the values to try"
-            )
-
-
-def check_names(function: str, parameters: Iterable[str], known: list[str]) -> None:
-    """Raise ExperimentError for a parameter that the function of this name does not have."""
-    for each in parameters:
-        if each not in known:
-            raise ExperimentError(f"{function} has no parameter {each!r}. {suggestion(each, known)}")
 
 
 def _is_plain(value: Any) -> bool:
     return all(map(_is_plain, value)) if isinstance(value, tuple) else isinstance(value, PLAIN)
 
 
-def checked_world(package: str | Path | None, distro: str | None, start_order: str) -> dict[str, Any]:
-    """What the worlds of all runs have in common, by the names of `start`. Raises ExperimentError for what makes no sense."""
+def _planned(
+    function: Callable[..., Any], seeds: Iterable[int], parameters: dict[str, Any], **options: Any
+) -> tuple[list[Run], Setting]:
+    """The runs of a function, and what they share by `options`. Raises ExperimentError for what cannot be carried out."""
+    if running_strand() is not None:
+        raise ExperimentError("a simulated program cannot carry out an experiment: call it in a cell or a script")
+    if one_run.is_worker():
+        raise ExperimentError("a run of an experiment cannot carry out an experiment of its own")
+    if not callable(function):
+        raise ExperimentError(f"an experiment needs a function such as `def drive(lesson): …`, got {function!r:.80}")
+    name = name_of(function)
+    try:
+        inspect.signature(function).bind(None, **parameters)
+    except TypeError as error:
+        call = ", ".join(["lesson", *(f"{each}=…" for each in parameters)])
+        raise ExperimentError(f"{name} cannot be called as {name}({call}): {error}") from None
+    if own := [each for each in parameters if each in OWN]:
+        raise ExperimentError(f"{name} has a parameter {own[0]!r}, as each table has: give it another name")
+    runs = plan(seeds, parameters)
+    check_options(**options)
+    return runs, setting_for(function, **options)
+
+
+def check_options(*, package: str | Path | None, distro: str | None, start_order: str, **others: Any) -> None:
+    """Raise ExperimentError for a world that cannot be, or a limit in seconds that makes no sense."""
     try:
         check_world(package, distro, start_order)
     except ValueError as error:
         raise ExperimentError(str(error)) from None
-    return {"package": package and str(package), "distro": distro, "start_order": start_order}
-
-
-def check_limits(jobs: Any, **limits: Any) -> None:
-    """Raise ExperimentError for a number of workers, or a limit in seconds, that makes no sense."""
-    if jobs is not None and (isinstance(jobs, bool) or not isinstance(jobs, int) or not 1 <= jobs <= MOST_JOBS):
-        raise ExperimentError(f"jobs must be a whole number from 1 to {MOST_JOBS}, got {jobs!r}")
-    for name, seconds in limits.items():
+    for name in ("robot_time", "cpu_time"):
+        seconds = others.get(name, 1.0)
         if isinstance(seconds, bool) or not isinstance(seconds, (int, float)) or not 0 < seconds <= 1e9:
             raise ExperimentError(f"{name} must be a number of seconds above 0, got {seconds!r}")
 

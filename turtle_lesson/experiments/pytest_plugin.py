@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from .experiment import check_limits, check_names, checked_world, plan
+from .experiment import check_options, plan
 from .one_run import ExperimentError, Run, Setting, open_run
 from .replay import Surroundings
 
@@ -32,8 +32,9 @@ if TYPE_CHECKING:
 
 MARK = "worlds"
 
-WORLD = ("package", "distro", "start_order")
-SETTING = {name: getattr(Setting(b""), name) for name in (*WORLD, "simulator", "robot_time")}
+SETTING = {
+    name: getattr(Setting(b""), name) for name in ("package", "distro", "start_order", "simulator", "robot_time")
+}
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -78,14 +79,11 @@ def _planned(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Run
     if isinstance(package, (str, Path)) and (root / package).is_dir():
         setting["package"] = root / package
     accepted = inspect.signature(metafunc.function).parameters
-    check_names(metafunc.function.__name__, given, [name for name in accepted if name not in ("self", "lesson")])
-    runs = plan(seeds, given)
-    setting |= checked_world(*(setting[name] for name in WORLD))
-    check_limits(None, robot_time=setting["robot_time"])
     for name in given:
-        if accepted[name].default is not inspect.Parameter.empty:
-            raise ExperimentError(f"{name} has a default, which pytest never replaces: leave =… out in the parameters")
-    return runs, Setting(b"", **setting)
+        if name not in accepted or accepted[name].default is not inspect.Parameter.empty:
+            raise ExperimentError(f"{name} is no parameter of the test, or has a default, which pytest never replaces")
+    check_options(**setting)
+    return plan(seeds, given), Setting(b"", **setting)
 
 
 @pytest.fixture
