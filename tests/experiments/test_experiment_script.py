@@ -84,9 +84,9 @@ def test_the_exit_code_is_0_if_all_runs_ended_well(
         ("1 / 0\n", [], 'File "it.py", line 1, in <module>\n    1 / 0\nZeroDivisionError: division by zero\n'),
         ("raise SystemExit('no robot')\n", [], "no robot\n"),
         (
-            "from turtle_lesson.experiments import experiment\nexperiment(print, gain=1)\n",
+            "from turtle_lesson.experiments import experiment\nexperiment(lambda lesson: None, gain=1)\n",
             [],
-            "turtle-lesson run: print cannot be called as print(lesson, gain=…): got an unexpected keyword argument 'gain'\n",
+            "<lambda> cannot be called as <lambda>(lesson, gain=…): got an unexpected keyword argument 'gain'\n",
         ),
         ("x = 1\n", ["--csv", "a.txt"], 'a table is saved as "….csv" or "….parquet", got \'a.txt\'\n'),
         (None, [], "turtle-lesson run: there is no script it.py\n"),

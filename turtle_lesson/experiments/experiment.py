@@ -12,6 +12,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 from ..lab.words import count
@@ -217,7 +218,7 @@ def _planned(
         raise ExperimentError("a simulated program cannot carry out an experiment: call it in a cell or a script")
     if one_run.is_worker():
         raise ExperimentError("a run of an experiment cannot carry out an experiment of its own")
-    if not callable(function):
+    if not isinstance(function, FunctionType):
         raise ExperimentError(f"an experiment needs a function such as `def drive(lesson): …`, got {function!r:.80}")
     name = name_of(function)
     try:

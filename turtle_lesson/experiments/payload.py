@@ -10,7 +10,6 @@ import pickle
 import sys
 import zlib
 from collections.abc import Callable, Collection, Iterator
-from functools import partial
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
@@ -76,8 +75,6 @@ def hash_of(function: Callable[..., Any]) -> str:
     own, used = _explored(function)
     texts = sorted(map(_source, own))
     values = sorted(f"{name}={value!r}" for name, value in used if isinstance(value, PLAIN))
-    if isinstance(function, partial):
-        values.append(repr((function.args, function.keywords)))
     return hashlib.sha256("\n".join(texts + values).encode()).hexdigest()[:16]
 
 
@@ -98,8 +95,7 @@ def _source(thing: Any) -> str:
 def _explored(function: Callable[..., Any]) -> tuple[list[Any], list[tuple[str, Any]]]:
     """The function, with the functions and classes of the learner's own that it uses, directly or not; by name, what all of
     these refer to."""
-    first = inspect.unwrap(function.func if isinstance(function, partial) else function)
-    own: list[Any] = [first if isinstance(first, (FunctionType, type)) else type(first)]
+    own: list[Any] = [inspect.unwrap(function)]
     used: list[tuple[str, Any]] = []
     for each in own:  # which grows
         for name, value in _names_in(each):
