@@ -15,18 +15,13 @@ from importlib import import_module
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from threading import RLock
-from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from types import ModuleType, SimpleNamespace
+from typing import Any
 
 from . import names
 from .definition import PARTS, parse, with_comments
 from .generator import make_module
 from .model import Definition, FieldType, InvalidDefinition
-
-if TYPE_CHECKING:
-    from importlib.abc import Loader
-else:
-    Loader = object  # importing importlib.abc would take longer than all the rest
 
 SHARE = Path(__file__).with_name("share")
 FOLDERS = tuple(PARTS)
@@ -296,28 +291,25 @@ def forget_modules(package: str) -> None:
 
 def install_finder(registry: Registry = registry) -> None:
     """Let import statements find the interface packages; a second call changes nothing."""
-    if any(isinstance(each, InterfaceFinder) and each.registry is registry for each in sys.meta_path):
-        return
-    place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)
-    sys.meta_path.insert(place, InterfaceFinder(registry))
+    if InterfaceFinder(registry) not in sys.meta_path:
+        place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)
+        sys.meta_path.insert(place, InterfaceFinder(registry))
 
 
 def uninstall_finder(registry: Registry = registry) -> None:
     """Undo `install_finder`; what was imported stays imported."""
-    sys.meta_path[:] = [
-        each for each in sys.meta_path if not (isinstance(each, InterfaceFinder) and each.registry is registry)
-    ]
+    sys.meta_path[:] = [each for each in sys.meta_path if each != InterfaceFinder(registry)]
 
 
 OUTER = "interfaces only"
 """The origin of an outer package such as `geometry_msgs`, which is nothing but a place for its inner ones."""
 
 
+@dataclass(frozen=True)
 class InterfaceFinder:
     """Finds packages, their `msg`, `srv` and `action` packages, and the modules of single interfaces."""
 
-    def __init__(self, registry: Registry) -> None:
-        self.registry = registry
+    registry: Registry
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -330,16 +322,15 @@ class InterfaceFinder:
             return None
         owner, inner = self.registry.package(parts[0]), parts[1:]
         if not inner:
-            return ModuleSpec(fullname, _Loader(partial(ModuleType, fullname)), origin=OUTER, is_package=True)
+            return _spec(fullname, lambda: ModuleType(fullname), OUTER)
         folder, known = inner[0], owner.names_in(inner[0])
         if not known:
             return None
         if len(inner) == 1:
-            loader = _Loader(partial(_folder_module, fullname, owner, folder))
-            return ModuleSpec(fullname, loader, origin=f"made from {owner.name}/{folder}", is_package=True)
+            return _spec(fullname, lambda: _folder_module(fullname, owner, folder), f"made from {owner.name}/{folder}")
         for name in known:
             if names.module_name(name) == inner[1]:
-                return ModuleSpec(fullname, _Loader(partial(self.registry.module, parts[0], f"{folder}/{name}")))
+                return _spec(fullname, partial(self.registry.module, parts[0], f"{folder}/{name}"))
         if inner[1][:1].isupper():  # `from std_msgs.msg import Strng` ends here once the attribute is missing
             text = (
                 f"cannot import name '{inner[1]}' from '{owner.name}.{folder}'. {owner.advice(f'{folder}/{inner[1]}')}"
@@ -360,18 +351,10 @@ def _is_found_elsewhere(fullname: str, path: Sequence[str] | None, target: Modul
     return False
 
 
-class _Loader(Loader):
-    """Gives a module that is made elsewhere, complete."""
-
-    def __init__(self, make: Callable[[], ModuleType]) -> None:
-        self._make = make
-
-    def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """The module."""
-        return self._make()
-
-    def exec_module(self, module: ModuleType) -> None:
-        """Nothing is left to be done."""
+def _spec(name: str, make: Callable[[], ModuleType], origin: str | None = None) -> ModuleSpec:
+    """The specification of a module, or of a package where it has an origin, which is made complete."""
+    loader: Any = SimpleNamespace(create_module=lambda spec: make(), exec_module=lambda module: None)
+    return ModuleSpec(name, loader, origin=origin, is_package=origin is not None)
 
 
 def _folder_module(fullname: str, owner: Package, folder: str) -> ModuleType:
