@@ -538,8 +538,7 @@ def test_a_package_xml_that_is_refused_leaves_a_plain_python_package(
     python_package: Path, world: World, old: str, new: str
 ) -> None:
     change(python_package / "package.xml", old, new)
-    python_package = python_package.rename(python_package.with_name("folder"))
-    assert colcon(world, "list").out == "py_demo\tsrc/folder\t(python)\n"
+    assert colcon(world, "list").out == "py_demo\tsrc/py_demo\t(python)\n"
     assert colcon(world).code == 0 and source_in(world).code == 0
     assert list(world.packages.get("py_demo").executables) == ["my_node"]
     change(python_package / "setup.py", "('share/ament_index/resource_index/packages',", "('share/nowhere',")

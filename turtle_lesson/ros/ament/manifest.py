@@ -15,7 +15,6 @@ from xml.etree import ElementTree
 
 from ..idl.names import did_you_mean
 from .package import ColconError
-from .setup_py import SetupError, read_setup
 
 BUILD_TYPES = ("ament_cmake", "ament_python", "cmake")
 IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
@@ -67,38 +66,23 @@ class Found:
 def read_found(path: Path, base: Path) -> Found:
     """What one package's folder says about itself.
 
-    For colcon, a folder whose package.xml is refused and that has a setup.py is a plain Python package, which is named by
-    setup.py and has no dependencies.
+    For colcon, a folder whose package.xml is refused and that has a setup.py is a plain Python package without dependencies.
+    Where package.xml gives no name, the package has the folder's.
     """
     shown = path.relative_to(base).as_posix() if path.is_relative_to(base) else str(path)
     try:
         root = ElementTree.fromstring((path / "package.xml").read_bytes())
     except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
-        return Found(_name_of_project(path) or _name_in_setup(path) or path.name, path, shown, xml_error=str(error))
+        return Found(path.name, path, shown, xml_error=str(error))
     name = _text(root, "name")
     if not re.fullmatch(r"[a-zA-Z0-9][a-zA-Z0-9_-]*", name):  # colcon takes it for a package without package.xml then
-        name = _name_of_project(path) or path.name
+        name = path.name
     build_type = _text(root, "export/build_type")
-    if build_type != "ament_cmake" and (faults := faults_in(root)) and (name_in_setup := _name_in_setup(path)):
+    if build_type != "ament_cmake" and (faults := faults_in(root)) and (path / "setup.py").is_file():
         fault, hint = next(iter(faults.items()))
-        return Found(name_in_setup, path, shown, xml_error=f"{fault}. {hint}".rstrip(". "))
+        return Found(name, path, shown, xml_error=f"{fault}. {hint}".rstrip(". "))
     dependencies = list(dict.fromkeys(filter(None, _texts(root, *_DEPENDS[:-1], "run_depend"))))
     return Found(name, path, shown, build_type, dependencies, root)
-
-
-def _name_of_project(path: Path) -> str:
-    file = path / "CMakeLists.txt"
-    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
-    match = re.search(r"^\s*project\s*\(\s*([\w-]+)", text, re.MULTILINE | re.IGNORECASE)
-    return match[1] if match else ""
-
-
-def _name_in_setup(path: Path) -> str:
-    """The name that setup.py gives; nothing without one that can be run."""
-    try:
-        return str(read_setup(path).get("name", "")) if (path / "setup.py").is_file() else ""
-    except SetupError:
-        return ""
 
 
 def build_type_hint(build_type: str) -> str:
