@@ -55,16 +55,6 @@ def test_what_is_exported_builds(lesson: Lesson, monkeypatch: pytest.MonkeyPatch
     assert colcon(lesson._world).err == ""
 
 
-def test_what_a_build_here_has_left_is_named(lesson: Lesson, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert lesson.export("robot_controller", to="robot").notes == []
-    monkeypatch.chdir("robot")
-    colcon(lesson._world)
-    monkeypatch.chdir("..")
-    again = lesson.export("robot_controller", to="robot", overwrite=True)
-    assert again.notes == ["robot holds build/, install/, log/ from a build on this computer: do not copy them"]
-    assert again.notes[0] in Path("robot/README.md").read_text()
-
-
 def test_a_learners_package_comes_before_the_finished_one(lesson: Lesson, tmp_path: Path) -> None:
     folder = make_package(tmp_path)
     result = lesson.export("robot_controller", to=tmp_path.parent / f"{tmp_path.name}_robot")
@@ -84,7 +74,6 @@ def test_programs_can_be_run_and_lines_end_as_on_linux(lesson: Lesson, tmp_path:
     written = result.package / "robot_controller/navigator_node.py"
     assert os.access(written, os.X_OK)
     assert written.read_bytes().startswith(b"#!/usr/bin/env python3\n")
-    assert any("colcon build now finds robot_controller twice" in note for note in result.notes)
 
 
 def test_what_a_build_would_refuse_is_refused(lesson: Lesson, tmp_path: Path) -> None:

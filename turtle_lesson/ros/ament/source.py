@@ -330,11 +330,6 @@ def _notes(release: Release, found: Found, imports: list[tuple[Path, int, str]],
                 used = f"{file.relative_to(found.path).as_posix()}, line {line}, uses what {release.title} lacks"
                 yield f"{used}. Since {change.since.capitalize()} {change.what}; before, {change.before}"
                 break
-    folder = target.parent.parent
-    if (Path.cwd() / "src").is_dir() and Path.cwd() in target.parents:
-        yield f"{shown_path(str(target))} lies in this workspace, where colcon build now finds {target.name} twice"
-    if built := [f"{name}/" for name in ("build", "install", "log") if (folder / name).is_dir()]:
-        yield f"{shown_path(str(folder))} holds {', '.join(built)} from a build on this computer: do not copy them"
     text = (target / "package.xml").read_text(encoding="utf-8")
     for word in ("TODO: Package description", "TODO: License"):
         if word in text:
