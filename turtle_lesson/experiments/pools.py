@@ -148,10 +148,7 @@ class _Watch:
 
     def too_long(self) -> str:
         """What it has done for too long, in words; "" if it goes on."""
-        try:
-            now, computed = time.monotonic(), self._computed()
-        except psutil.Error:  # it has ended a moment ago
-            return ""
+        now, computed = time.monotonic(), self._computed()
         if computed - self._mark >= WAITING * max(now - self._worked, WINDOW):
             self._worked, self._mark = now, computed
         if computed - self._began > self._limit:

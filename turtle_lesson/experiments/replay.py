@@ -40,7 +40,6 @@ from .one_run import (
     call_in,
     forget_folder,
     load,
-    name_of,
     open_run,
     unpack,
 )
@@ -67,7 +66,6 @@ class Replay:
         self._ending: Ending | None = None
         self._closed = False
         function = load(setting)
-        self._name = name_of(function)
         self._folder = tempfile.TemporaryDirectory(prefix="turtle-lesson-", ignore_cleanup_errors=True)
         place = Path(self._folder.name)
         for name, packed in setting.folders.items():
@@ -147,12 +145,7 @@ class Replay:
         return f"Run {self._run.number}"
 
     def __repr__(self) -> str:
-        given = {"seed": self._run.seed, **self._run.parameters}
-        inputs = ", ".join(f"{name}={value!r}" for name, value in given.items())
-        state = "it stands before its first line" if self.now == 0 else f"at {number(self.now, 3)} s of robot time"
-        if self._closed:
-            state = "its world was closed by a later start()"
-        return f"<Replay of {self._name}({inputs}): {self._told() if self.done else state}>"
+        return f"<Replay of {self._title} at {number(self.now, 3)} s of robot time>"
 
     def _told(self) -> str:
         """How the run ended, in a sentence, and how that compares with the table."""
