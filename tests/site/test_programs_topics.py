@@ -42,7 +42,6 @@ def test_how_programs_take_ctrl_c(terminal: Terminal) -> None:
         "interrupted",
         "bye",
         "Traceback (most recent call last):",
-        "    sys.exit(main())",
         "    rclpy.spin(node)",
         "KeyboardInterrupt",
         "[ros2run]: Interrupt",
