@@ -58,15 +58,13 @@ class Kind:
         return self.member.type.is_primitive and not self.member.type.is_array
 
     @property
-    def is_float32(self) -> bool:
-        """Whether transport rounds the value to a float32."""
-        return self.member.type == FieldType("float32")
-
-    @property
     def lines(self) -> int:
         """How many fields stand where this one is written out."""
         return 1 + sum(kind.lines for kind in self.inner)
 
+
+FLOAT32 = FieldType("float32")
+"""The type of the values that transport rounds."""
 
 MOST_LINES = 64
 """A message with more fields than these, its messages' fields included, is not written out in those that contain it."""
@@ -353,7 +351,7 @@ def _filled(new: str, kinds: Sequence[Kind], old: str, packed: list[tuple[str, s
             lines += _filled(inner, kind.inner, inner_old, packed)
         elif not old:
             lines.append(f"{target} = {kind.fresh}")
-        elif kind.is_float32:
+        elif kind.member.type == FLOAT32:
             packed.append((target, source))
         else:
             lines.append(f"{target} = {kind.copy.format(value=source)}")

@@ -26,7 +26,7 @@ from typing import Any
 
 from .. import hooks
 from . import message
-from .codegen import Kind, kind_of, message_source, wrapper_source
+from .codegen import FLOAT32, Kind, kind_of, message_source, wrapper_source
 from .message import slot_type
 from .model import Constant, Definition, Field, FieldType, InvalidDefinition, Plain, carriers
 from .names import bounds, module_name
@@ -122,7 +122,7 @@ class _Builder:
         written_out = list(_with_inner(kinds))
         for kind in written_out:
             self._globals.update(kind.objects)
-        if rounded := sum(kind.is_float32 for kind in written_out):
+        if rounded := sum(kind.member.type == FLOAT32 for kind in written_out):
             packing = Struct(f"{rounded}f")  # rounds them to float32
             self._globals.update({f"_pack_{rounded}": packing.pack, f"_unpack_{rounded}": packing.unpack})
         self._run(definition, definition.folder, message_source(definition, kinds))
@@ -271,11 +271,6 @@ def cache_folder() -> str | None:
 
 def _user_folder() -> Path:
     """Where this user's programs keep what they can make again."""
-    if sys.platform == "win32":
-        place = os.environ.get("LOCALAPPDATA", r"~\AppData\Local")
-    elif sys.platform == "darwin":
-        place = "~/Library/Caches"
-    else:
-        place = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    place = os.environ.get("LOCALAPPDATA") or os.environ.get("XDG_CACHE_HOME") or "~/.cache"  # the first on Windows
     python = f"{sys.implementation.cache_tag}-{MAGIC_NUMBER.hex()}-{sys.flags.optimize}"
     return Path(place).expanduser() / "turtle-lesson" / "messages" / python
