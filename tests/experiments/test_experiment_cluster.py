@@ -80,7 +80,7 @@ def test_a_cluster_that_is_not_there_is_told_in_one_sentence(client: Client) -> 
         ("127.0.0.1", "no scheduler of Dask answers at '127.0.0.1' (missing port number"),
         ("nothing://here:80", "no scheduler of Dask answers at 'nothing://here:80' (unknown address scheme"),
         (5, "no scheduler of Dask answers at 5 "),
-        (closed, "this client is closed: make a new Client(…), which is connected and waits for answers"),
+        (closed, "this client is closed or asynchronous: make a new Client(…), got <Client"),
     ):
         with pytest.raises(ExperimentError) as refused:
             experiment(drive, kind="well", client=wrong)

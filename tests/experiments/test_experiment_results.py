@@ -218,8 +218,8 @@ def test_quantiles_leave_out_what_has_no_value() -> None:
     assert table(8).quantiles("seconds", by="outcome").rows[1] == {
         "outcome": "raised", "runs": 0, "5 %": None, "25 %": None, "50 %": None, "75 %": None, "95 %": None,
     }  # fmt: skip
-    for arguments in (["seconds", None, [2]], ["seconds", None, []], ["error"], ["seconds", "nothing"]):
-        with pytest.raises(ExperimentError):
+    for arguments in (["seconds", None, [2]], ["error"], ["seconds", "nothing"]):
+        with pytest.raises(ValueError):
             table(8).quantiles(*arguments)
 
 
@@ -233,5 +233,3 @@ def test_a_picture_says_what_it_shows() -> None:
     assert table(8).plot("seconds").text.startswith("seconds of 6 runs. seconds: 8 runs, 2 without a value, median 3,")
     nothing = table(8).failed.plot("seconds")
     assert (nothing.text, nothing.figure) == ("There is no seconds to draw: 2 runs, 2 failed: 3, 7.", None)
-    with pytest.raises(ExperimentError, match="run has 30 values, and a picture shows 24"):
-        table(30).plot("seconds", by="run")

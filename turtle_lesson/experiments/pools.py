@@ -296,10 +296,7 @@ def connected(client: Any, patience: float = PATIENCE) -> tuple[Client, bool]:
         raise ExperimentError("a cluster needs Dask, which is not here: pip install 'turtle-lesson[cluster]'") from None
     if isinstance(client, Client):
         if client.status != "running" or client.asynchronous:
-            what = "asynchronous" if client.asynchronous else client.status
-            raise ExperimentError(
-                f"this client is {what}: make a new Client(…), which is connected and waits for answers"
-            )
+            raise ExperimentError(f"this client is closed or asynchronous: make a new Client(…), got {client}")
         return client, False
     try:
         if isinstance(client, str):  # a Client that cannot connect complains once more when it is collected
@@ -326,8 +323,6 @@ def _check_workers(client: Client) -> None:
     """Raise ExperimentError for a cluster without workers, or with workers that lack what runs need."""
     mine = _about()
     for address, about in answers(client, _about, FIRST_WORKER).items():
-        if isinstance(about, Exception):
-            raise ExperimentError(f"the cluster's workers cannot import turtle_lesson ({about}): install {mine} there")
         if about != mine:
             raise ExperimentError(f"the worker {address} has {about}, and this notebook {mine}: they must be the same")
 

@@ -141,10 +141,6 @@ class Results(Table):
     def plot(self, column: str, by: str | None = None) -> Picture:
         """A dot for each run, with quartiles and median; `by` names a column whose values are drawn side by side."""
         parts = [(head.get(by or ""), self.numbers(rows, column), len(rows)) for head, rows in self.groups(by)]
-        if len(parts) > MOST_GROUPS:
-            raise ExperimentError(
-                f"{by} has {len(parts)} values, and a picture shows {MOST_GROUPS}: take some by where(…)"
-            )
         amount = sum(len(numbers) for _, numbers, _ in parts)
         if not amount:
             return Picture(f"There is no {column} to draw: {self.summary}.")
@@ -174,8 +170,6 @@ class Results(Table):
         self, column: str, by: str | None = None, at: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95)
     ) -> Table:
         """The values of a column below which these shares of the runs lie, of runs that have one."""
-        if not at or not all(isinstance(share, (int, float)) and 0 <= share <= 1 for share in at):
-            raise ExperimentError(f"at must be shares from 0 to 1, such as [0.05, 0.5, 0.95], got {at!r}")
         names = [f"{100 * share:g} %" for share in at]
         rows = []
         for head, some in self.groups(by):
@@ -258,9 +252,6 @@ def endings_of(path: str | Path, runs: Sequence[Run], mine: dict[str, Any]) -> l
 
 
 # -- the picture ---------------------------------------------------------------------------------------------------------
-
-MOST_GROUPS = 24
-"""A picture with more groups than that cannot be read."""
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 6.4, 3.4, 0.75, 0.25, 0.72, 0.55
 """The card, and what is around the axes, in inches."""
