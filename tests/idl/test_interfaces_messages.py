@@ -30,7 +30,6 @@ from turtle_lesson.ros.idl.message import (
     UnboundedSequence,
     UnboundedString,
 )
-from turtle_lesson.ros.idl.model import InvalidDefinition
 from turtle_lesson.ros.idl.registry import Registry, forget_modules, install_finder, uninstall_finder
 
 RECORDED = recorded("interface_messages.json")
@@ -383,11 +382,6 @@ def test_fields_may_have_awkward_names(name):
     setattr(message, name, 2.5)
     assert getattr(message._wire_copy(), name) == 2.5
     assert message == message._wire_copy() != kind()
-
-
-def test_names_that_our_classes_need_are_refused():
-    with pytest.raises(InvalidDefinition, match="'wire_copy' is taken"):
-        message_class("float32 wire_copy")
 
 
 def test_notes_say_what_came_and_what_to_try():

@@ -161,9 +161,6 @@ def _with_inner(kinds: Iterable[Kind]) -> Iterator[Kind]:
 # rosidl_parser/parser.py, rosidl_generator_py; for special numbers ros2/rosidl issue 351, for words of C++ issue
 # 272).
 
-TAKEN = ("wire_copy", "fields_and_field_types")
-"""Attributes of our own in the classes, which fields of these names would replace."""
-
 _CPP = """
     alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t class compl const
     const_cast constexpr continue decltype default delete do double dynamic_cast else enum explicit export extern false
@@ -199,8 +196,6 @@ def check_buildable(field: Field) -> None:
     elif name in CPP_WORDS:
         reason = f"Member name '{name}' is a keyword of C++, in which ROS 2 also generates code"
         hint += f", such as '{name}_value'"
-    elif name in TAKEN:
-        reason = f"the field name '{name}' is taken"
     else:
         return
     raise InvalidDefinition(reason, error, hint=hint)
