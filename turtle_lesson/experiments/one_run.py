@@ -118,23 +118,14 @@ def open_run(setting: Setting, run: Run) -> Lesson:
 def call_in(lesson: Lesson, function: Callable[..., Any], run: Run) -> Ending:
     """Call the function in its world; what came of it. No error is raised."""
     try:
-        returned = function(lesson, **run.parameters)
+        ending = Ending(OK, plain_values(function, function(lesson, **run.parameters)))
     except errors.OutOfTime as error:
         ending = Ending(ROBOT_TIME, error=f"the run was not over when {error}", traceback=errors.format_error(error))
     except BaseException as error:
-        ending = Ending(RAISED, error=_in_a_line(error), traceback=errors.format_error(error))
-    else:
-        try:
-            ending = Ending(OK, plain_values(function, returned))
-        except TypeError as error:
-            ending = Ending(RAISED, error=_in_a_line(error))
+        said = f"{type(error).__name__}: {str(error).strip()}".partition("\n")[0].removesuffix(": ")
+        ending = Ending(RAISED, error=said, traceback=errors.format_error(error))
     ending.robot_time = lesson.now
     return ending
-
-
-def _in_a_line(error: BaseException) -> str:
-    said = str(error).strip().partition("\n")[0]
-    return f"{type(error).__name__}: {said}" if said else type(error).__name__
 
 
 def name_of(function: Any) -> str:

@@ -51,7 +51,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     mark = metafunc.definition.get_closest_marker(MARK)
     if mark is None:
         return
-    name, wrong = metafunc.function.__name__, ""
+    name = metafunc.function.__name__
     try:
         if mark.args:
             raise ExperimentError(f"give what you mean by name: @pytest.mark.{MARK}(seeds={mark.args[0]!r})")
@@ -59,9 +59,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
             raise ExperimentError(f"it must take the world as its parameter: def {name}(lesson): …")
         runs, setting = _planned(metafunc, dict(mark.kwargs))
     except ExperimentError as error:
-        wrong = str(error)
-    if wrong:
-        pytest.fail(f"{name}, marked with @pytest.mark.{MARK}: {wrong}", pytrace=False)
+        pytest.fail(f"{name}, marked with @pytest.mark.{MARK}: {error}", pytrace=False)
     metafunc.parametrize(
         [*runs[0].parameters, "lesson"],
         [[*run.parameters.values(), (run, setting)] for run in runs],

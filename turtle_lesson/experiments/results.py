@@ -10,7 +10,7 @@ from importlib.metadata import version
 from math import sqrt
 from pathlib import Path
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -21,9 +21,6 @@ from .one_run import CPU_TIME, DIED, FIRST, LAST, OK, OWN, VERSION, Ending, Expe
 from .payload import hash_of, hash_of_folders, setting_for
 from .replay import Replay
 from .table import Table, read, save, text_of
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 class Results(Table):
@@ -149,7 +146,7 @@ class Results(Table):
         told = [_in_words(name, numbers, runs) for name, (_, numbers, runs) in zip(names, parts, strict=True)]
         text = f"{column} of {count(amount, 'run')}{'' if by is None else f' by {by}'}. {' '.join(told)}"
         with drawing.applied():
-            return Picture(text, _draw(column, by, labels, [numbers for _, numbers, _ in parts], amount))
+            return _picture(text, column, by, labels, [numbers for _, numbers, _ in parts])
 
     def rate(self, by: str | None = None) -> Table:
         """How many runs ended well: the share, and the interval in which the true rate lies, with 95 % confidence.
@@ -267,9 +264,10 @@ def _in_words(name: str, numbers: np.ndarray, runs: int) -> str:
     return f"{name}: {count(runs, 'run')}{without}, {spread}."
 
 
-def _draw(column: str, by: str | None, labels: list[str], parts: list[np.ndarray], amount: int) -> Figure:
+def _picture(text: str, column: str, by: str | None, labels: list[str], parts: list[np.ndarray]) -> Picture:
     figure = drawing.card(WIDTH, HEIGHT)
     beside = "" if by is None else f" by {by}"
+    amount = sum(map(len, parts))
     drawing.heading(figure, f"{column}{beside}", f"{count(amount, 'run')}  ·  median and quartiles")
     axes = drawing.axes_at(figure, LEFT, BOTTOM, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM)
     axes.set_xlim(-0.5, len(parts) - 0.5)
@@ -289,4 +287,4 @@ def _draw(column: str, by: str | None, labels: list[str], parts: list[np.ndarray
                 aside, numbers, linestyle="none", marker="o", markersize=3, color=drawing.BLUE, alpha=0.7, zorder=3
             )
             axes.plot([place - 0.31, place + 0.31], [middle] * 2, color=drawing.VERMILLION, linewidth=2, zorder=4)
-    return figure
+    return Picture(text, figure)
