@@ -92,7 +92,7 @@ def experiment(
     processes = min(jobs or defaults.get().jobs or cores(), max(len(runs) - len(known), 1))
     with closing(LocalPool(setting, processes) if client is None else ClusterPool(setting, client)) as pool:
         if until is None:
-            endings = known + carry_out(pool, left_of(runs, known))
+            endings = carry_out(pool, runs, known)
         else:
             endings, smallest = search_failure(pool, runs, known)
     missing = len(runs) - len(endings)
@@ -126,9 +126,14 @@ def replay(
 
 
 def carry_out(
-    pool: LocalPool | ClusterPool, runs: Sequence[Run], at_once: int | None = None
+    pool: LocalPool | ClusterPool, runs: Sequence[Run], known: Sequence[tuple[Run, Ending]], at_once: int | None = None
 ) -> list[tuple[Run, Ending]]:
-    """Carry out runs; those that were over when the user interrupted. `at_once`: so many, and no more once one has failed."""
+    """What is known of runs, and what comes of the others; of those that were over if the user interrupts.
+
+    `at_once`: so many are carried out, and no more once one has failed.
+    """
+    there = {run.number for run, _ in known}
+    runs = [run for run in runs if run.number not in there]
     done: list[tuple[Run, Ending]] = []
     failed = 0
     try:
@@ -147,13 +152,7 @@ def carry_out(
         print(
             f"Stopped: {len(done)} of {len(runs)} runs were over. They are in the table; resume= goes on from a saved one."
         )
-    return done
-
-
-def left_of(runs: Sequence[Run], known: Sequence[tuple[Run, Ending]]) -> list[Run]:
-    """The runs of which it is not known yet what comes of them."""
-    there = {run.number for run, _ in known}
-    return [run for run in runs if run.number not in there]
+    return [*known, *done]
 
 
 def search_failure(
@@ -164,8 +163,7 @@ def search_failure(
     What was carried out beyond the failing run, since workers work side by side, is left out of the table.
     """
     failing = min((run.number for run, ending in known if ending.outcome != OK), default=len(runs))
-    carried_out = carry_out(pool, left_of(runs[:failing], known), AT_ONCE)
-    done = sorted([*known, *carried_out], key=lambda each: each[0].number)
+    done = sorted(carry_out(pool, runs[:failing], known, AT_ONCE), key=lambda each: each[0].number)
     first = next((at for at, (_, ending) in enumerate(done) if ending.outcome != OK), None)
     if first is None:
         if len(done) == len(runs):
