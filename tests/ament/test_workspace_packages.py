@@ -337,7 +337,7 @@ SETUP = "from setuptools import setup\nsetup(name='py_demo', {})\n"
         ),
         (
             SETUP.format("data_files=[('share/py_demo', [__import__('os').path.abspath('setup.cfg')])]"),
-            "relative to the folder of setup.py: 'setup.cfg'",
+            "relative to the folder of setup.py",
         ),
         (SETUP.format("entry_points={'console_scripts': 5}"), "Invalid entry point"),
         (

@@ -173,8 +173,7 @@ class _Build:
         source = self.found.path / name
         if Path(name).is_absolute():
             text = f"AssertionError: 'data_files' must be relative, '{name}' is absolute"
-            inside = source.relative_to(self.found.path) if source.is_relative_to(self.found.path) else source.name
-            raise _refused(text, f"Give the path relative to the folder of setup.py: '{inside}'.")
+            raise _refused(text, "Give the path relative to the folder of setup.py.")
         if not source.is_file():
             hint = f"setup.py names it in data_files. {did_you_mean(name, names_in(self.found.path))}".strip()
             raise _refused(f"error: can't copy '{name}': doesn't exist or not a regular file", hint)

@@ -90,19 +90,16 @@ def overlay(world: World, install: Path) -> None:
 
 def resource(world: World, install: Path, name: str) -> None:
     """Read one package anew, if it is sourced: its files have changed."""
-    if _sourced(world, install.resolve(), name):
+    if any((each.install, each.package.name) == (install.resolve(), name) for each in overlays(world)):
         _add(world, install.resolve(), name)
-
-
-def _sourced(world: World, install: Path, name: str) -> list[_Overlay]:
-    return [each for each in overlays(world) if (each.install, each.package.name) == (install, name)]
 
 
 def _add(world: World, install: Path, name: str) -> None:
     if not overlays(world):
         world.notebook.at_exit.append(lambda: remove_all(world))
-    for each in _sourced(world, install, name):
-        _remove(world, each)
+    for each in overlays(world)[:]:
+        if (each.install, each.package.name) == (install, name):
+            _remove(world, each)
     package = read_installed(install, name)
     overlays(world).append(_Overlay(install, package))
     _show(world, package)
