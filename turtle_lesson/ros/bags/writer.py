@@ -20,7 +20,7 @@ import zlib
 from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from ..runtime import files
 from ..sim.simulation import NANOSECONDS
@@ -31,14 +31,12 @@ if TYPE_CHECKING:
     from rosbags.interfaces import Connection, Qos
 
 STORAGES = ("mcap", "sqlite3")
-FORMAT_VERSION: Literal[8] = 8
 
 CHUNK_SIZE = 1 << 16
 """After how many bytes a chunk is closed and written out: so much at most is lost by a crash or by a spoiled byte."""
 
 CHUNK_CHECKSUM = 1 + 8 + 3 * 8
 """Where, in a chunk's record, its checksum stands: after opcode, length, two times and the size."""
-
 
 SEPARATOR = "=" * 80
 
@@ -54,7 +52,6 @@ class BagWriter:
             raise BagError(f"a bag is stored as {' or '.join(STORAGES)}, got {storage!r}")
         if os.path.lexists(folder):
             raise BagError(f"Output folder '{folder}' already exists.")
-        self.folder = folder
         self.count = 0
         self._connections: dict[tuple[str, str], Any] = {}
         self._writer = _open(folder, storage)
@@ -133,7 +130,7 @@ def _open(folder: Path, storage: str) -> Any:
     plugin = StoragePlugin[storage.upper()]
     make: Any = CheckedMcapWriter if plugin is StoragePlugin.MCAP else ExactSqlite3Writer
     try:
-        writer = Writer(folder, version=FORMAT_VERSION, storage_plugin=plugin)
+        writer = Writer(folder, version=8, storage_plugin=plugin)
         writer.STORAGE_PLUGINS = {plugin: lambda path, mode: make(_Numbered(path), mode)}  # type: ignore[dict-item]
         writer.open()
     except (WriterError, OSError, ValueError) as error:
