@@ -15,7 +15,7 @@ from .callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, Reen
 from .client import Client
 from .clock import Clock, ROSClock
 from .context import Context
-from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks, checked_callbacks
+from .event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from .exceptions import RCLError, not_valid
 from .guard_condition import GuardCondition
 from .publisher import Publisher
@@ -65,7 +65,7 @@ class NodeEntities(NodeGraph):
         RCLError, and NotImplementedError for QoS overrides.
         """
         refuse_unbuilt(qos_overriding_options=qos_overriding_options)
-        callbacks = checked_callbacks(event_callbacks, PublisherEventCallbacks)
+        callbacks = event_callbacks or PublisherEventCallbacks()
         full_name, profile, quality = self._ros_topic_end("publisher", msg_type, topic, qos_profile)
         kind = msg_type if isinstance(msg_type, type) else type(msg_type)
         writer = self._ros_graph.add_writer(self._ros_entry, full_name, kind._TYPE_NAME, quality)  # type: ignore[attr-defined]
@@ -97,7 +97,7 @@ class NodeEntities(NodeGraph):
         RCLError, and NotImplementedError for QoS overrides and content filters.
         """
         refuse_unbuilt(qos_overriding_options=qos_overriding_options, content_filter_options=content_filter_options)
-        callbacks = checked_callbacks(event_callbacks, SubscriptionEventCallbacks)
+        callbacks = event_callbacks or SubscriptionEventCallbacks()
         full_name, profile, quality = self._ros_topic_end("subscription", msg_type, topic, qos_profile)
         reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, quality)
         reader.profile = profile

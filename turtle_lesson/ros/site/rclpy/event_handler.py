@@ -215,13 +215,3 @@ class PublisherEventCallbacks(_EventCallbacks):
     incompatible_type: Callable[[IncompatibleTypeInfo], Any] | None = None
     matched: Callable[[QoSPublisherMatchedInfo], Any] | None = None
     use_default_callbacks: bool = True
-
-
-def checked_callbacks(callbacks: Any, expected: type[_EventCallbacks]) -> Any:
-    """The callbacks that a program gives a publisher or subscription, or the usual ones. Raises TypeError."""
-    if callbacks is None:
-        return expected()
-    if not isinstance(callbacks, expected):
-        hint = f"{expected.__name__}(deadline=self.on_deadline)"
-        raise TypeError(f"event_callbacks must be {expected.__name__}, got {callbacks!r}: try event_callbacks={hint}")
-    return callbacks
