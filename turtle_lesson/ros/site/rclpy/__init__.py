@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from turtle_lesson.ros.runtime.world import current_process
 from turtle_lesson.ros.sim.strand import running_strand
 
-from ._blocking import drive, spin_live
+from ._blocking import drive, drives_the_simulation, spin_live
 from ._hints import explain_missing
 from ._state import RclpyState
 from .context import Context
@@ -22,8 +22,6 @@ from .task import Future
 from .utilities import get_default_context, get_rmw_implementation_identifier, ok, shutdown, try_shutdown
 
 if TYPE_CHECKING:
-    from turtle_lesson.ros.sim.process import Process
-
     from .executors import Executor
     from .node import Node
     from .qos import QoSProfile
@@ -93,11 +91,7 @@ def get_global_executor() -> Executor:
 
     `rclpy.shutdown()` shuts it down, too: so `rclpy.spin` in another thread returns in silence (rclpy's __init__.py).
     """
-    return _executor_of(current_process())
-
-
-def _executor_of(process: Process) -> Executor:
-    own = process.state(RclpyState)
+    own = current_process().state(RclpyState)
     executor = own.executor
     if executor is None or executor._context.ended or not executor._context.initialized:
         from .executors import SingleThreadedExecutor
@@ -130,13 +124,10 @@ def create_node(
     return Node(**arguments)
 
 
+@drives_the_simulation
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
     """Run one callback of the node, or wait until the timeout (s) for one to become ready; None waits forever."""
-    strand = running_strand()
-    if strand is None:
-        drive(spin_once, node, executor=executor, timeout_sec=timeout_sec)
-        return
-    executor = _executor_of(strand.process) if executor is None else executor
+    executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)
         executor.spin_once(timeout_sec=timeout_sec)
@@ -168,11 +159,10 @@ def spin_until_future_complete(
     node: Node, future: Future, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
     """Run the node's callbacks until the future is done, or the timeout (s) has passed; None waits forever."""
-    strand = running_strand()
-    if strand is None:
+    if running_strand() is None:
         drive(spin_until_future_complete, node, future, executor, timeout_sec)
         return
-    executor = _executor_of(strand.process) if executor is None else executor
+    executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)
         executor.spin_until_future_complete(future, timeout_sec)

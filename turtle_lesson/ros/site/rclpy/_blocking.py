@@ -14,7 +14,7 @@ from turtle_lesson.ros.sim.strand import Strand, running_strand
 from turtle_lesson.ros.stdlib.clocks import real_monotonic, real_sleep
 from turtle_lesson.ros.stdlib.deadlock import wait_in_vain
 
-from ._deadlock import executor_of_worker, is_notebook
+from ._deadlock import executor_of_worker
 
 if TYPE_CHECKING:
     from .context import Context
@@ -132,7 +132,7 @@ class WakeUp:
 
 def somebody_spins(executor: Executor | None, strand: Strand) -> bool:
     """Whether another strand than this spins an executor, or may do so yet (in doubt: yes)."""
-    if is_notebook(strand.process):
+    if strand.process.is_notebook:
         return True
     if executor is not None and executor._spun_by_another(strand):
         return True

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from turtle_lesson.ros.sim.process import Process
 from turtle_lesson.ros.sim.strand import running_strand
 from turtle_lesson.ros.stdlib.deadlock import hints
 
@@ -112,7 +111,7 @@ def why_never_answered(client: Client, strand: Strand) -> str:
     if not servers:
         end = client._end
         return why_nobody_offers("service", end.name, end.type_name, client._node._ros_graph.services())
-    drives = is_notebook(strand.process) and not callbacks_around()
+    drives = strand.process.is_notebook and not callbacks_around()
     if drives and client._end.cut_off:
         return (
             "lesson.network loses all transmissions of this service, and nothing can change that while this cell waits. "
@@ -158,7 +157,7 @@ def _why_not_served(client: Client, servers: list[ServerEnd], strand: Strand, dr
         spun = by_this_call or (others_may_act(strand) if executor is None else executor._spun_by_another(strand))
         if spun and not holds_group(service.callback_group):
             return ""
-    words, place = client._words, "notebook" if is_notebook(strand.process) else "process"
+    words, place = client._words, "notebook" if strand.process.is_notebook else "process"
     if drives or not callbacks_around():
         return (
             f"the {words.server}'s node is in this {place}, too, and no executor spins it meanwhile. Add both nodes to one "
@@ -218,8 +217,3 @@ def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
     if hasattr(entity, "_waiting"):  # a client, of services or actions: the answers that it waits for
         return bool(entity._waiting)
     return not (getattr(entity.callback, "__module__", None) or "").startswith("rclpy.")
-
-
-def is_notebook(process: Process) -> bool:
-    """Whether this process is its world's notebook, in which no program runs: its cells drive the simulation."""
-    return process is process.world.notebook

@@ -13,7 +13,7 @@ from turtle_lesson.ros.sim.strand import running_strand
 from turtle_lesson.ros.stdlib.deadlock import looked_in_vain, wait_in_vain
 
 from ._blocking import drives_the_simulation, wait_until
-from ._deadlock import Words, is_notebook, why_never_answered
+from ._deadlock import Words, why_never_answered
 from ._entity import CLIENT, Entity
 from ._hints import shown
 from .callback_groups import CallbackGroup
@@ -112,7 +112,7 @@ class Client(Entity):
     def _answer_to(self, future: Future, strand: Strand, timeout_sec: float | None = None) -> Any:
         """Wait for the result of a future that `call_async` returned; None after the timeout (s)."""
         try:
-            if not is_notebook(strand.process) or self._taken_elsewhere(strand):
+            if not strand.process.is_notebook or self._taken_elsewhere(strand):
                 self._wait(future, strand, timeout_sec)
             elif self._executor is not None:
                 self._executor.spin_until_future_complete(future, timeout_sec)

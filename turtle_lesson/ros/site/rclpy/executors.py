@@ -27,7 +27,7 @@ from turtle_lesson.ros.stdlib.deadlock import IDLE, look_after, wait_in_vain
 from turtle_lesson.ros.stdlib.threads import number_of_pool
 
 from ._blocking import drive, drives_the_simulation, spin_live
-from ._deadlock import executor_of_worker, is_notebook, others_may_act, why_never_done
+from ._deadlock import executor_of_worker, others_may_act, why_never_done
 from ._entity import WAITABLE, Entity, trace_entity
 from ._hints import explain_call, no_node, refuse_unbuilt
 from ._state import RclpyState
@@ -565,7 +565,7 @@ class MultiThreadedExecutor(Executor):
     def _spin_once(self, strand: Strand, deadline: int | None, condition: Condition) -> None:
         with suppress(ExternalShutdownException):  # as rclpy's executors.py does; a single-threaded one raises it
             super()._spin_once(strand, deadline, condition)
-        if is_notebook(strand.process):
+        if strand.process.is_notebook:
             # When a cell's call returns, time stands still: what is ready must run before, or it would not be seen.
             self._simulation.at(self._simulation.now, self._simulation.wake, strand)
             self._simulation.park(strand)

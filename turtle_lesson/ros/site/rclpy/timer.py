@@ -16,7 +16,6 @@ from turtle_lesson.ros.sim.simulation import EPOCH, NEVER
 from turtle_lesson.ros.sim.strand import running_strand
 
 from ._blocking import WakeUp, drives_the_simulation, somebody_spins
-from ._deadlock import is_notebook
 from ._entity import TIMER, Entity
 from ._hints import shown
 from .callback_groups import CallbackGroup
@@ -254,7 +253,7 @@ class Rate:
             self._ticked = bool(self._sleepers)  # the last caller that leaves clears the tick
             return
         executor = self._timer._executor
-        if is_notebook(strand.process) and (executor is None or not executor._spun_by_another(strand)):
+        if strand.process.is_notebook and (executor is None or not executor._spun_by_another(strand)):
             self._wait_alone()
             return
         if not somebody_spins(executor, strand):

@@ -13,7 +13,6 @@ from functools import reduce
 from typing import Any
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
-from rclpy._deadlock import is_notebook
 from rclpy.time import Time
 
 from turtle_lesson.ros.runtime.world import current_process
@@ -240,4 +239,4 @@ def say(level: str, text: str) -> None:
     kind = re.sub(r"\d", "", text)  # the figures change from message to message
     if now - said.get(kind, -SECOND) >= SECOND:
         said[kind] = now
-        print(level, text, file=sys.stdout if is_notebook(process) else sys.stderr)
+        print(level, text, file=sys.stdout if process.is_notebook else sys.stderr)

@@ -17,7 +17,6 @@ from turtle_lesson.ros.runtime.world import current_process, current_world
 from turtle_lesson.ros.sim.errors import shown_path
 from turtle_lesson.ros.sim.simulation import EPOCH, NANOSECONDS
 
-from .._deadlock import is_notebook
 from .._hints import did_you_mean
 from .._state import RclpyState
 from .logging_severity import LoggingSeverity
@@ -105,7 +104,7 @@ class RcutilsLogger:
             text = _line(message, severity, name, EPOCH + now, frame, own.log_format)
             if own.log_colorized:
                 text = f"{COLORS.get(severity.name, NORMAL)}{text}{NORMAL}"
-            print(text, file=sys.stdout if is_notebook(current_process()) else sys.stderr)
+            print(text, file=sys.stdout if current_process().is_notebook else sys.stderr)
         publish = own.rosout.get(name if self._parent is None else self._parent)
         if publish is not None and goes_to.get("rosout", True):
             publish(name, message, severity, frame)
