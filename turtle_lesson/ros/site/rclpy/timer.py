@@ -254,7 +254,10 @@ class Rate:
             return
         executor = self._timer._executor
         if strand.process.is_notebook and (executor is None or not executor._spun_by_another(strand)):
-            self._wait_alone()
+            # a cell in which nobody spins waits until the timer is due
+            timer = self._timer
+            WakeUp(self._context).wait(timer._simulation.now + (timer.time_until_next_call() or 0))
+            timer._take()
             return
         if not somebody_spins(executor, strand):
             raise NeverWakes(
@@ -269,12 +272,6 @@ class Rate:
             self._sleepers.remove(wake_up)
             if not self._sleepers:
                 self._ticked = False
-
-    def _wait_alone(self) -> None:
-        """In a notebook's cell, where nobody spins: until the timer is due."""
-        timer, wake_up = self._timer, WakeUp(self._context)
-        wake_up.wait(timer._simulation.now + (timer.time_until_next_call() or 0))
-        timer._take()
 
     def destroy(self) -> None:
         """Wake the sleeping callers, and never sleep again."""
