@@ -276,23 +276,22 @@ class LaunchHandle:
 
 
 def launch_file(
-    world: World,
-    path: Path | str,
-    arguments: Mapping[str, object] | None = None,
-    *,
-    show_all_output: bool = False,
+    world: World, path: Path | str, arguments: Mapping[str, object] | None = None, *, show_all_output: bool = False
 ) -> LaunchHandle:
     """Carry out a launch file, with its arguments as `name:=value` on a command line; values become text.
 
     Raises LaunchError if the file cannot be carried out; nothing was started then.
     """
+    service = LaunchService(world)
+    if show_all_output:
+        service.context.environment[OUTPUT_OVERRIDE] = "both"
     source = AnyLaunchDescriptionSource(str(Path(path).resolve()))
-    return _begin(world, source, arguments or {}, Path(path).name, show_all_output)
+    return LaunchHandle(_begun(service, source, arguments or {}), Path(path).name)
 
 
 def launch_description(world: World, description: LaunchDescription) -> LaunchHandle:
     """Carry out a description that was made in a notebook cell. As `launch_file` otherwise."""
-    return _begin(world, LaunchDescriptionSource(description), {}, "a description")
+    return LaunchHandle(_begun(LaunchService(world), LaunchDescriptionSource(description), {}), "a description")
 
 
 def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgument]:
@@ -315,19 +314,10 @@ def show_arguments(world: World, path: Path | str) -> str:
     return "\n\n".join(parts if len(parts) > 1 else [*parts, "  No arguments."])
 
 
-def _begin(
-    world: World,
-    source: LaunchDescriptionSource,
-    arguments: Mapping[str, object],
-    name: str,
-    show_all_output: bool = False,
-) -> LaunchHandle:
+def _begun(service: LaunchService, source: LaunchDescriptionSource, arguments: Mapping[str, object]) -> LaunchService:
     given = {  # as on a command line, where True is `true`
         argument: str(value).lower() if isinstance(value, bool) else str(value) for argument, value in arguments.items()
     }
-    service = LaunchService(world)
-    if show_all_output:
-        service.context.environment[OUTPUT_OVERRIDE] = "both"
     include = IncludeLaunchDescription(source, launch_arguments=given.items())
     include._written_at = None  # it stands in no launch file
     try:
@@ -341,4 +331,4 @@ def _begin(
             takes = f"It takes: {', '.join(known)}." if known else "It takes no arguments."
             what = f"nothing in this launch file takes the argument '{argument}'"
             service.say("WARNING", "launch", f"{what}. {did_you_mean(argument, known) or takes}")
-    return LaunchHandle(service, name)
+    return service

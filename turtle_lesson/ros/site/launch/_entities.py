@@ -58,8 +58,7 @@ class TextSubstitution(Substitution):
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
-            error = TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
-            raise explained(error, f"Write it as text: TextSubstitution(text='{text}')")
+            raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
         self.text = text
 
     def describe(self) -> str:

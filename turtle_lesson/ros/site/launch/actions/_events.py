@@ -38,8 +38,7 @@ class EmitEvent(Action):
         super().__init__(**kwargs)
         if not isinstance(event, Event):
             error = RuntimeError(f"EmitEvent() expected an event instance, got '{event}'.")
-            hint = "Events are in launch.events; put an action such as Shutdown() directly into the list."
-            raise explained(error, hint)
+            raise explained(error, "Events are in launch.events; an action such as Shutdown() needs no EmitEvent.")
         self.event = event
 
     def execute(self, context: LaunchContext) -> None:
