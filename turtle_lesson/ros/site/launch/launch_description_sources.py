@@ -92,9 +92,8 @@ class PythonLaunchDescriptionSource(_LaunchFile):
         generate = getattr(module, "generate_launch_description", None)
         if generate is None:
             missing = "does not contain the required function 'generate_launch_description()'"
-            what = f"launch file at '{shown_path(location)}' {missing}"
-            hint = "Write: def generate_launch_description(): return LaunchDescription([…])"
-            raise explained(InvalidPythonLaunchFileError(what), hint)
+            error = InvalidPythonLaunchFileError(f"launch file at '{shown_path(location)}' {missing}")
+            raise explained(error, "Write: def generate_launch_description(): return LaunchDescription([…])")
         description: LaunchDescription = generate()
         return description
 

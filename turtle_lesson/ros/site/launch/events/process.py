@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .._context import Event
-
-if TYPE_CHECKING:
-    from ..actions import ExecuteProcess
+from .._entities import Action
 
 __all__ = ["ProcessExited", "ProcessIO", "ProcessStarted", "RunningProcessEvent"]
 
@@ -16,7 +14,7 @@ class RunningProcessEvent(Event):
     """Something about a process: its action, name (`navigator-1`), command, environment, number."""
 
     def __init__(
-        self, *, action: ExecuteProcess, name: str, cmd: list[str], cwd: str | None, env: dict[str, str], pid: int
+        self, *, action: Action, name: str, cmd: list[str], cwd: str | None, env: dict[str, str], pid: int
     ) -> None:
         self.action = action
         self.process_name = name
