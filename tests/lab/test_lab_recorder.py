@@ -251,8 +251,9 @@ def test_obstacles_are_the_newest_that_were_published_even_before(bench):
 def test_a_closed_recorder_hears_no_more_but_keeps_what_it_heard(bench):
     bench.publish(Pose, "/turtle1/pose", Pose())
     bench.run(1.05)
+    channel = bench.recorder._channels["/turtle1/pose"]
     bench.recorder.close()
     bench.run(1.0)
     assert len(bench.recorder.poses) == 10
-    channel = bench.recorder._channels["/turtle1/pose"]
     assert not channel.listens
+    assert "when the recorder was closed" in bench.recorder.why_silent("/turtle1/pose")

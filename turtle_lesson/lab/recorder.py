@@ -72,7 +72,6 @@ class Recorder(Recording):
             origin = node.get_clock().now().nanoseconds
         super().__init__(origin=origin)
         self.node = node
-        self._closed = False
         self._channels = self._make_channels(node, advice)
         self._timer = node.create_timer(GLANCE_PERIOD, self._glance)
         # every node announces its parameters when it starts
@@ -90,9 +89,8 @@ class Recorder(Recording):
 
     def close(self) -> None:
         """Stop listening; what was heard stays."""
-        self._closed = True
-        for channel in self._channels.values():
-            channel.close()
+        while self._channels:
+            self._channels.popitem()[1].close()
         self.node.destroy_subscription(self._events)
         self.node.destroy_timer(self._timer)
 
@@ -103,7 +101,7 @@ class Recorder(Recording):
 
     def why_silent(self, topic: str) -> str:
         """A sentence on why nothing was heard on a topic, and what to try."""
-        if self._closed:
+        if not self._channels:
             return f"No message had come on {topic} when the recorder was closed."
         self.look()
         return self._channels[topic].why_silent()
