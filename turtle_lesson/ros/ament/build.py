@@ -9,9 +9,10 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 from ..runtime import files
+from ..runtime.world import World
 from ..sim.errors import shown_path
 from ..sim.simulation import NANOSECONDS
 from ..sim.strand import running_strand
@@ -30,10 +31,6 @@ from .install_tree import (
 )
 from .manifest import Found, in_order, needed_by, reached
 from .source import resource, types_for
-
-if TYPE_CHECKING:
-    from ..runtime.world import World
-
 
 _BEGIN, _END = 0.1, 0.1
 """What colcon takes before its first package and after its last, in s."""

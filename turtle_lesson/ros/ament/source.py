@@ -13,10 +13,12 @@ import tempfile
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
+from ..distro import Release
 from ..idl.names import LOWER_CASE, did_you_mean
 from ..idl.registry import Registry, registry
+from ..runtime.world import World
 from ..sim.errors import shown_path
 from .cmake_commands import definitions
 from .index import CMAKE_PACKAGES, PYTHON_PACKAGES, is_launch_file
@@ -31,10 +33,6 @@ from .install_tree import (
 )
 from .manifest import Found, build_type_hint, discover, read_found
 from .package import Package, PackageError, PythonProgram, Target, filled, forget_below
-
-if TYPE_CHECKING:
-    from ..distro import Release
-    from ..runtime.world import World
 
 
 def source(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cwd: Path) -> int:
