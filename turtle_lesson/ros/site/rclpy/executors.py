@@ -399,7 +399,8 @@ class Executor:
             return
         finally:
             self._spinning.remove(strand)
-            self._wake_another_spinner()
+            if self._waiter is not None:
+                self._wake_another_spinner()
 
     @drives_the_simulation
     def spin_once_until_future_complete(self, future: Future, timeout_sec: float | TimeoutObject | None = None) -> None:
