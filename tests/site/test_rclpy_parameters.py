@@ -513,9 +513,9 @@ def test_an_empty_list_in_a_file_is_a_parameter_without_a_value(world: World, tm
     assert node.get_parameter("speed").value == 1.5
 
 
-def test_a_parameters_message_is_no_default(world: World) -> None:
+def test_a_parameters_message_without_a_value_is_no_default(world: World) -> None:
     rclpy.init(args=[])
-    with pytest.raises(TypeError, match="The given value is not one of the allowed types"):
+    with pytest.raises(ValueError, match="default value of type PARAMETER_NOT_SET"):
         Node("n").declare_parameter("speed", ParameterValue())
 
 

@@ -289,7 +289,7 @@ class NodeParameters(NodeEntities):
 
 def _read_declaration(namespace: str, details: tuple[Any, ...]) -> tuple[str, Any, Any]:
     """Full name, default value and descriptor of a declaration: a tuple of name, and perhaps value and descriptor."""
-    from rcl_interfaces.msg import ParameterDescriptor
+    from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
 
     if not 1 <= len(details) <= 3 or not isinstance(details[0], str):
         raise TypeError(f"a parameter is declared by a tuple of its name, value and descriptor, got {details!r}")
@@ -311,9 +311,9 @@ def _read_declaration(namespace: str, details: tuple[Any, ...]) -> tuple[str, An
         descriptor.type = value.value
         return name, None, descriptor
     if not descriptor.dynamic_typing:
-        descriptor.type = Parameter.Type.from_parameter_value(value).value
-        if value is None:
+        if value is None or (isinstance(value, ParameterValue) and not value.type):
             raise ValueError("Cannot declare a statically typed parameter with default value of type PARAMETER_NOT_SET")
+        descriptor.type = Parameter.Type.from_parameter_value(value).value
     return name, value, descriptor
 
 
