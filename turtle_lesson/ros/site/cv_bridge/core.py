@@ -44,7 +44,7 @@ class CvBridge:
         dtype = kind.newbyteorder(">" if img_msg.is_bigendian else "<")
         columns = img_msg.step // (dtype.itemsize * channels) or img_msg.width
         shape = (img_msg.height, columns, channels) if channels > 1 else (img_msg.height, columns)
-        image: Array = np.ndarray(shape, dtype, img_msg.data)[:, : img_msg.width].astype(kind)
+        image: Array = np.ndarray(shape, dtype, img_msg.data)[:, : img_msg.width].astype(kind, copy=False)
         return image if desired_encoding == "passthrough" else _converted(image, img_msg.encoding, desired_encoding)
 
     def cv2_to_imgmsg(self, cvim: Array, encoding: str = "passthrough", header: Header | None = None) -> Image:
