@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 from typing import Any
 
 import pytest
@@ -118,7 +119,7 @@ def test_subscriptions(run: Run) -> None:
         subscribers = [Subscriber(node, Image, name, qos_profile=5) for name in ("left", "right")]
         both = TimeSynchronizer(subscribers, 10)
         both.registerCallback(lambda left, right, more: found.append((millis(left), right.header.frame_id, more)), "!")
-        assert subscribers[0].getTopic() == "left"
+        assert copy(subscribers[0]).getTopic() == "left"
         assert subscribers[0].topic_name == "/left" or subscribers[0].topic_name == "left"
         rclpy.spin(node)
 

@@ -65,7 +65,7 @@ class Subscriber(SimpleFilter):
 
     def __getattr__(self, key: str) -> Any:
         """Everything else is the subscription's."""
-        return getattr(vars(self)["sub"], key)
+        return getattr(object.__getattribute__(self, "sub"), key)
 
 
 class Cache(SimpleFilter):
