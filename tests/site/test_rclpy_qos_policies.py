@@ -95,8 +95,11 @@ def test_the_check_of_two_profiles_is_not_here() -> None:
 @pytest.mark.parametrize(
     ("policies", "reason"),
     [
-        ({"reliability": ReliabilityPolicy.UNKNOWN}, "the reliability of its QoS profile is negative or UNKNOWN"),
-        ({"deadline": Duration(seconds=-1)}, "the deadline of its QoS profile is negative or UNKNOWN"),
+        (
+            {"reliability": ReliabilityPolicy.UNKNOWN},
+            "the reliability of its QoS profile cannot be <ReliabilityPolicy.UNKNOWN",
+        ),
+        ({"deadline": Duration(seconds=-1)}, r"the deadline of its QoS profile cannot be Duration\(nanoseconds=-1"),
     ],
 )
 def test_what_stands_for_no_policy_makes_no_publisher(world: World, policies: dict[str, Any], reason: str) -> None:

@@ -187,7 +187,7 @@ class QoSProfile:
         policies = vars(self)
         for name, value in policies.items():
             if value.nanoseconds < 0 if isinstance(value, Duration) else getattr(value, "name", "") == "UNKNOWN":
-                raise RCLError(f"Failed to create {what}: the {name} of its QoS profile is negative or UNKNOWN")
+                raise RCLError(f"Failed to create {what}: the {name} of its QoS profile cannot be {value!r}")
         keep_all = policies["history"] == HistoryPolicy.KEEP_ALL
         return Quality(
             depth=None if keep_all else max(1, policies["depth"]),
