@@ -372,7 +372,8 @@ def test_uncertainty_turns_with_the_frame_and_a_shifted_force_has_a_lever() -> N
 def test_data_that_nobody_registered_is_refused() -> None:
     with pytest.raises(TypeException, match=r"Type <class '.*Twist'> is not loaded or supported") as caught:
         TransformRegistration().get(Twist)
-    assert caught.value.__notes__ == ["For the types of geometry_msgs write: import tf2_geometry_msgs"]
+    advice = "For geometry_msgs write: import tf2_geometry_msgs; messages of sensor_msgs are not transformed"
+    assert caught.value.__notes__ == [advice]
     with pytest.raises(
         TypeError, match=r"a Pose is expected, got PoseStamped: a PoseStamped is transformed by do_transform_pose_st"
     ):

@@ -31,5 +31,5 @@ class TransformRegistration:
         if key in self._functions:
             return self._functions[key]
         error = TypeException(f"Type {key} is not loaded or supported")
-        error.add_note("For the types of geometry_msgs write: import tf2_geometry_msgs")
+        error.add_note("For geometry_msgs write: import tf2_geometry_msgs; messages of sensor_msgs are not transformed")
         raise error
