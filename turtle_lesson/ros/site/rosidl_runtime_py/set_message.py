@@ -50,16 +50,13 @@ class _Filling:
 
     def fill(self, message: Any, values: Any) -> None:
         if not hasattr(values, "items"):
-            text = f"Value '{values!s:.200}' is expected to be a dictionary but is a {type(values).__name__}"
-            raise TypeError(text)
+            raise TypeError(f"Value '{values!s:.200}' is expected to be a dictionary but is a {type(values).__name__}")
         types = get_message_slot_types(message)
         for name, value in values.items():
             if not isinstance(name, str):
-                no_text = TypeError(f"attribute name must be string, not '{type(name).__name__}'")
-                no_text.add_note(
-                    f"YAML reads it as {str(name).lower()}: put the field's name in quotes, such as 'off'."
-                )
-                raise no_text
+                wrong = TypeError(f"attribute name must be string, not '{type(name).__name__}'")
+                wrong.add_note(f"YAML reads it as {str(name).lower()}: put the field's name in quotes, such as 'off'.")
+                raise wrong
             if name not in types:
                 error = AttributeError(f"'{type(message).__name__}' object has no attribute '{name:.200}'")
                 hint = did_you_mean(name[:100], types) or f"The fields are: {', '.join(types) or 'none'}."
