@@ -325,7 +325,7 @@ def _put_in_place_of_modules() -> None:
     """What import statements of simulated programs, and of nobody else, get or cause."""
     modules = {module.__name__: module for module in (clocks.make_module(), *terminals.make_modules())}
     on_import.update({name: partial(modules.get, name) for name in modules})
-    on_import.update({name: partial(subprocesses.refuse_module, name) for name in subprocesses.REFUSED_MODULES})
+    on_import.update({name: partial(subprocesses.refuse_toolkit, name) for name in subprocesses.WINDOWS})
     on_import.update({name: partial(_key_library, f"make_{name}") for name in ("curses", "pynput")})
 
 

@@ -163,16 +163,9 @@ WINDOWS = ("PyQt5", "PyQt6", "PySide2", "PySide6", "customtkinter", "kivy", "pyg
 NO_WINDOW = "{} opens windows, and a program here has no screen for them: lesson.dashboard() may show the same"
 
 
-REFUSED_MODULES = {
-    **{name: NO_WINDOW.format(name) for name in WINDOWS},
-    "fcntl": "no fcntl here: select.select([sys.stdin], [], [], 0) tells whether a key was pressed",
-}
-"""What a program cannot import, installed or not, and what it is told."""
-
-
-def refuse_module(name: str) -> None:
-    """Refuse the import of such a module, by ImportError."""
-    raise ImportError(REFUSED_MODULES[name], name=name)
+def refuse_toolkit(name: str) -> None:
+    """Refuse the import of a window toolkit by a program, installed or not, by ImportError."""
+    raise ImportError(NO_WINDOW.format(name), name=name)
 
 
 def first_window(real: Any, self: Any, *arguments: Any, **keywords: Any) -> None:

@@ -208,10 +208,10 @@ def select(
 
 
 def make_modules() -> list[ModuleType]:
-    """`termios`, `tty`, `select`, and on Windows `msvcrt`: by its absence programs know that they are elsewhere."""
+    """`termios`, `tty`, `select`, and `fcntl`, or on Windows `msvcrt`: by its absence programs know that they are elsewhere."""
     termios = _module("termios", {**FLAGS, "error": error}, tcgetattr, tcsetattr, tcflush)
     there = [termios, make_tty(termios), _module("select", vars(real_select), select)]
-    return [*there, make_msvcrt()] if os.name == "nt" else there
+    return [*there, make_msvcrt() if os.name == "nt" else make_fcntl()]
 
 
 def make_msvcrt() -> ModuleType:
@@ -235,6 +235,22 @@ def make_tty(termios: ModuleType) -> ModuleType:
     tty.__dict__["__builtins__"] = {**vars(builtins), "__import__": lambda *_: termios}
     exec(loader.get_code("tty"), tty.__dict__)
     return tty
+
+
+def make_fcntl() -> ModuleType:
+    """`fcntl`, by which a program has its terminal not wait for keys (O_NONBLOCK)."""
+    import fcntl as real
+
+    def fcntl(fd: Any, cmd: int, arg: Any = 0, /) -> Any:
+        """Ask or change what a file does."""
+        terminal = terminal_of(fd)
+        if terminal is None:
+            return real.fcntl(fd, cmd, arg)
+        if cmd == real.F_SETFL:
+            terminal.patience = 0.0 if arg & os.O_NONBLOCK else None
+        return 0
+
+    return _module("fcntl", vars(real), fcntl)
 
 
 def _module(name: str, names: dict[str, Any], *functions: Callable[..., Any]) -> ModuleType:
