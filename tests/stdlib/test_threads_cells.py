@@ -251,6 +251,7 @@ def test_types_are_what_they_were(world: World) -> None:
     assert isinstance(threading.Lock(), threading.Lock if isinstance(threading.Lock, type) else object)
     assert isinstance(queue.SimpleQueue(), queue.SimpleQueue)
     assert type(queue.SimpleQueue()).__module__ == "_queue"
+    assert str(queue.SimpleQueue[int]) == "_queue.SimpleQueue[int]"
     assert isinstance(threading.local(), threading.local)
 
     class Mine(threading.local):

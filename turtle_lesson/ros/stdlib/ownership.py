@@ -139,6 +139,9 @@ class _Facade(type):
         real_bases = tuple(getattr(base, behind) if isinstance(base, _Facade) else base for base in bases)
         return type(real_bases[0])(name, real_bases, namespace, **keywords)
 
+    def __getattr__(cls, name: str) -> Any:
+        return getattr(cls._real, name)
+
 
 def facade(real: Any, virtual: type) -> Any:
     """The class that stands before `real`, a class or a function that makes objects of one, and `virtual`."""
