@@ -91,6 +91,16 @@ def test_a_lock_taken_twice_by_the_same_thread_although_others_are_busy(why: Why
     )
 
 
+def test_a_lock_of_a_thread_that_has_ended_although_others_are_busy(why: Why) -> None:
+    def program() -> None:
+        thread(time.sleep, 50)
+        lock = threading.RLock()
+        thread(lock.acquire).join()
+        lock.acquire()
+
+    assert why(program).endswith("would never end: Thread-2 (acquire) has ended without releasing it.")
+
+
 @pytest.mark.parametrize("kind", ["Lock", "RLock"])
 def test_two_threads_that_take_two_locks_in_different_order(why: Why, kind: str) -> None:
     def program() -> None:

@@ -41,7 +41,7 @@ def wait_in_vain(strand: Strand, what: VirtualLock | str) -> None:
     chain = _chain(strand)
     last = chain[-1]
     owner = _sure_owner(last)
-    if owner is not None and owner in chain:
+    if owner is not None and (owner.dead or owner in chain):
         raise NeverWakes(why_in_a_circle(strand, chain, owner))
     if _nobody_can_act(strand.process, strand):
         _tell(last if last.waits_for is not IDLE else strand, strand)
@@ -142,8 +142,10 @@ def why_nobody_is_left(strand: Strand) -> str:
 
 
 def why_in_a_circle(strand: Strand, chain: Sequence[Strand], owner: Strand) -> str:
-    """Why a strand would wait forever: because the strands that wait for one another form a circle."""
+    """Why a strand would wait forever: because the strands that wait for one another form a circle, or one has ended."""
     never = f"waiting for {wait_of(strand)} would never end"
+    if owner.dead:
+        return f"{never}: {_name(owner)} has ended without releasing it."
     if owner is strand and len(chain) == 1:
         return (
             f"{never}: this same thread has already taken it. Release it first, or use threading.RLock(), which the "
