@@ -111,7 +111,7 @@ class VirtualEventLoop(asyncio.BaseEventLoop):
 
     add_reader = add_writer = add_signal_handler = sock_connect = sock_recv = sock_sendall = _refused  # type: ignore[assignment]
     subprocess_exec = subprocess_shell = create_connection = create_datagram_endpoint = create_server = _refused
-    create_unix_connection = _refused
+    create_unix_connection = remove_signal_handler = _refused
 
 
 # -- loop functions ----------------------------------------------------------------------------------------------------
