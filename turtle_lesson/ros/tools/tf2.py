@@ -13,7 +13,6 @@ import re
 import string
 import sys
 import time
-from typing import Any
 
 import rclpy
 import yaml
@@ -93,15 +92,15 @@ def tf2_echo() -> int:
 # -- view_frames -------------------------------------------------------------------------------------------------------
 
 
-def tree_of(frames: dict[str, Any]) -> str:
+def tree_of(frames: dict[str, dict[str, str]]) -> str:
     """The frames as a tree, each under its parent, with what is known of it. `frames`: as `all_frames_as_yaml`."""
     lines: list[str] = []
 
     def draw_below(parent: str, indent: str) -> None:
-        names = [str(name) for name, entry in frames.items() if entry["parent"] == parent]
+        names = [name for name, entry in frames.items() if entry["parent"] == parent]
         for name in names:
             sign, more = ("└── ", "    ") if name == names[-1] else ("├── ", "│   ")
-            rate, latest = frames[name]["rate"], frames[name]["most_recent_transform"]
+            rate, latest = (float(frames[name][key]) for key in ("rate", "most_recent_transform"))
             known = f"{rate:.1f} Hz, the latest at {latest:.3f}" if latest else "static"
             lines.append(f"{indent}{sign}{name}  ({known})")
             draw_below(name, indent + more)
@@ -130,7 +129,7 @@ def view_frames() -> int:
     except (KeyboardInterrupt, ExternalShutdownException):
         return 1
     node.get_logger().info("Generating graph...")
-    frames = yaml.safe_load(buffer.all_frames_as_yaml()) or {}
+    frames = yaml.load(buffer.all_frames_as_yaml(), yaml.BaseLoader)  # texts, as a frame may be called 1
     print(tree_of(frames) if frames else "No tf data received: no node publishes on /tf or /tf_static.")
     rclpy.try_shutdown()
     return 0
