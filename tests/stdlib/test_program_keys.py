@@ -365,6 +365,7 @@ def test_curses_waits_for_keys_in_robot_time(lesson: Lesson, begin: Begin, capsy
             "AttributeError: curses.window.getkey is not available here: of curses a program",
         ),
         ("curses.initscr().addstr(24, 0, 'below')", "curses.error: addwstr() returned ERR"),
+        ("curses.initscr().addstr(0, 0, 1.5)", "TypeError: expect bytes or str, got float"),
     ],
 )
 def test_what_curses_cannot_do_is_said(lesson: Lesson, begin: Begin, capsys: Any, use: str, said: str) -> None:

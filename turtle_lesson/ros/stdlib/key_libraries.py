@@ -68,8 +68,10 @@ class Window:
     def addstr(self, *arguments: int | str) -> None:
         """Write a text: `addstr([y, x,] text[, attribute])`. An attribute has no effect here."""
         *place, text = arguments if len(arguments) % 2 else arguments[:-1]
+        if not isinstance(text, str):
+            raise TypeError(f"expect bytes or str, got {type(text).__name__}")  # Python's words
         y, x = (int(each) for each in place or self._place)
-        for number, line in enumerate(str(text).split("\n")):
+        for number, line in enumerate(text.split("\n")):
             y, x = (y + 1, 0) if number else (y, x)
             if not 0 <= y < LINES or x < 0:
                 raise error("addwstr() returned ERR")
