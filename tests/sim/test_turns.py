@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from turtle_lesson.ros.runtime.world import World
 from turtle_lesson.ros.sim.process import Process
 from turtle_lesson.ros.sim.simulation import Simulation
 from turtle_lesson.ros.sim.strand import Carrier, Strand, running_greenlet, running_strand
@@ -19,7 +20,7 @@ MS = 1_000_000
 
 def started(simulation: Simulation, name: str, program: Callable[[Strand], None]) -> Process:
     """A process that runs `program(strand)`."""
-    process = Process(simulation, name, pid=len(name), seed=name)
+    process = Process(simulation, name, pid=len(name), seed=name, world=World())
 
     def main() -> None:
         strand = running_strand()

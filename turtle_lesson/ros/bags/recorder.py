@@ -13,7 +13,7 @@ import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..idl.cdr import serialize
 from ..idl.names import did_you_mean, is_hidden
@@ -25,6 +25,9 @@ from ..sim.process import Process
 from ..sim.simulation import EPOCH, NANOSECONDS
 from . import BagError, UnrecordableType
 from .writer import BagWriter, profile_of
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 NODE = "rosbag2_recorder"
 """The node of `ros2 bag record`."""
@@ -78,7 +81,7 @@ class _Heard:
 class Recorder:
     """Fills `bag` with what `node` hears; `say(severity, text)` is told what happens."""
 
-    def __init__(self, node: Any, bag: BagWriter, selection: Selection, say: Say) -> None:
+    def __init__(self, node: Node, bag: BagWriter, selection: Selection, say: Say) -> None:
         self._node = node
         self._bag = bag
         self._selection = selection

@@ -74,9 +74,8 @@ class World:
 
     def _make_process(self, name: str, **details: Any) -> Process:
         number = self._names[name] = self._names.get(name, 0) + 1
-        process = Process(self.sim, name, pid=self._pid, seed=f"{self.seed}/{name}/{number}", **details)
+        process = Process(self.sim, name, pid=self._pid, seed=f"{self.seed}/{name}/{number}", world=self, **details)
         self._pid += 1
-        process.world = self
         return process
 
     def spawn(

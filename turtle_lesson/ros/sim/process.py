@@ -15,12 +15,15 @@ from dataclasses import KW_ONLY, dataclass, field
 from functools import partial
 from io import StringIO
 from random import Random
-from typing import Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from .. import hooks
 from .errors import print_error
 from .simulation import Simulation
 from .strand import Strand, running_strand
+
+if TYPE_CHECKING:
+    from ..runtime.world import World
 
 INTERRUPTED = -2
 KILLED = -9
@@ -70,13 +73,13 @@ class Process:
     _: KW_ONLY
     pid: int
     seed: str
+    world: World
     argv: list[str] = field(default_factory=list)
     stdout: Any = None
     stderr: Any = None
     stdin: Any = None
     on_exit: Callable[[Process], None] | None = None
     exit_code: int | None = None
-    world: Any = None
     followers: list[Process] = field(default_factory=list)
     before_exit: list[Callable[[], None]] = field(default_factory=list)
     exit_functions: list[partial[object]] = field(default_factory=list)

@@ -210,7 +210,7 @@ def _somebody_may_complete(future: Future, executor: Executor, taken: Callable[[
     return any(_may_act(entity, taken) for node in nodes for entity in node._ros_waiting_entities)
 
 
-def _may_act(entity: Any, taken: Callable[[Any], bool]) -> bool:
+def _may_act(entity: Entity, taken: Callable[[Any], bool]) -> bool:
     """Whether a callback of the program's own may be called by an entity, although these groups are taken."""
     if entity._executor is None or taken(entity.callback_group):
         return False

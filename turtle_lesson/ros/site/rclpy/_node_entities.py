@@ -202,7 +202,7 @@ class NodeEntities(NodeGraph):
         timer = self.create_timer(1.0 / frequency, callback, ReentrantCallbackGroup(), clock)
         return Rate(timer, context=self._ros_context)
 
-    def _ros_destroy(self, entity: Any) -> bool:
+    def _ros_destroy(self, entity: object) -> bool:
         if entity not in self._ros_waiting_entities:
             return False
         entity.destroy()

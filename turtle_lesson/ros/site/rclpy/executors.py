@@ -256,7 +256,7 @@ class Executor:
         for waiting in blocked:
             waiting._signal()
 
-    def _as_task(self, entity: Any) -> Task:
+    def _as_task(self, entity: Entity) -> Task:
         traced, begun = entity._traced, None
         if traced is not None:  # as in `Entity._run`
             began, arrivals = self._simulation.now, traced.arrivals
@@ -266,7 +266,7 @@ class Executor:
         task._entity, task._node = entity, entity._node
 
         def free() -> None:
-            if begun is not None:
+            if traced is not None and begun is not None:
                 traced.end_run(begun, self._simulation.now)
             entity._end_run(entity)
             self._retry_blocked()
@@ -504,7 +504,7 @@ class Executor:
         self.shutdown()
 
 
-async def _call_and_await(entity: Any, arguments: tuple[Any, ...] | None) -> None:
+async def _call_and_await(entity: Entity, arguments: tuple[Any, ...] | None) -> None:
     if arguments is not None:
         try:
             result = entity.callback(*arguments)

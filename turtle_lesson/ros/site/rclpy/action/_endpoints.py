@@ -34,7 +34,7 @@ PARTS = {
 TOPICS = ("feedback", "status")
 
 
-def check_action(role: str, node: Any, action_type: Any) -> None:
+def check_action(role: str, node: Node, action_type: Any) -> None:
     """Raise TypeError, AttributeError or RuntimeError for what is no node or no action type."""
     if not hasattr(node, "_ros_waiting_entities"):
         raise no_node(node)
