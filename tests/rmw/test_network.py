@@ -280,6 +280,21 @@ def test_a_publisher_can_wait_until_everything_has_arrived(run: Run, world: Worl
     assert run(program) == [(False, True, 0.0), (False, True, 0.5), (True, True, 0.0), (True, True, 0.0)]
 
 
+def test_what_was_kept_for_a_late_subscription_is_under_way_to_it(run: Run) -> None:
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+    def program(found: list[Any]) -> None:
+        rclpy.init()
+        node = rclpy.create_node("n")
+        publisher = node.create_publisher(Int32, "x", latched)
+        publisher.publish(Int32(data=7))
+        reader = node.create_subscription(Int32, "x", print, latched)._reader
+        found += [message.data for _, message in reader.under_way()]
+        found += [publisher.wait_for_all_acked(Duration(seconds=0)), publisher.wait_for_all_acked()]
+
+    assert run(program) == [7, False, True]
+
+
 def test_waiting_for_what_never_arrives_ends_in_time(run: Run, world: World) -> None:
     world.graph.set_network("/x", conditions(loss=1))
 

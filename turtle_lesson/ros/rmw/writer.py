@@ -119,11 +119,13 @@ class Writer(End):
         """What was sent to a reader and has not arrived there yet: when (ns), and the message."""
         if reader in self._lines:
             return self._lines[reader].under_way()
-        return [
-            (arrival - self._latency, parcel[2])
-            for arrival, _, action, parcel in self._simulation.scheduled()
-            if action is _deliver and parcel[0] is self and reader in parcel[1]
-        ]
+        found = []
+        for arrival, _, action, parcel in self._simulation.scheduled():
+            if action is _deliver and parcel[0] is self and reader in parcel[1]:
+                found.append((arrival - self._latency, parcel[2]))
+            elif action == self._deliver_kept and reader is parcel[0]:
+                found.append((parcel[2], parcel[1]))
+        return found
 
     def is_acknowledged(self) -> bool:
         """Whether all reliable readers have got everything."""
