@@ -66,7 +66,7 @@ class NodeEntities(NodeGraph):
         """
         refuse_unbuilt(qos_overriding_options=qos_overriding_options)
         callbacks = event_callbacks or PublisherEventCallbacks()
-        full_name, profile, quality = self._ros_topic_end("publisher", msg_type, topic, qos_profile)
+        full_name, profile, quality = self._ros_topic_end("publisher", msg_type, topic, qos_profile, callbacks)
         kind = msg_type if isinstance(msg_type, type) else type(msg_type)
         writer = self._ros_graph.add_writer(self._ros_entry, full_name, kind._TYPE_NAME, quality)  # type: ignore[attr-defined]
         writer.profile = profile
@@ -98,7 +98,7 @@ class NodeEntities(NodeGraph):
         """
         refuse_unbuilt(qos_overriding_options=qos_overriding_options, content_filter_options=content_filter_options)
         callbacks = event_callbacks or SubscriptionEventCallbacks()
-        full_name, profile, quality = self._ros_topic_end("subscription", msg_type, topic, qos_profile)
+        full_name, profile, quality = self._ros_topic_end("subscription", msg_type, topic, qos_profile, callbacks)
         reader = self._ros_graph.add_reader(self._ros_entry, full_name, msg_type._TYPE_NAME, quality)
         reader.profile = profile
         group = callback_group or self._ros_default_callback_group
@@ -109,13 +109,16 @@ class NodeEntities(NodeGraph):
         return subscription
 
     def _ros_topic_end(
-        self, what: str, msg_type: Any, topic: str, qos_profile: QoSProfile | int
+        self, what: str, msg_type: Any, topic: str, qos_profile: QoSProfile | int, callbacks: object
     ) -> tuple[str, QoSProfile, Quality]:
         """Full name, profile and what of it counts for a publisher or subscription (`what`) that is to be made.
 
         Within one process ROS refuses a second type on a topic; between processes it only never connects.
         """
         self._ros_check_alive(f"Failed to create {what}: rcl node's")
+        expected = PublisherEventCallbacks if what == "publisher" else SubscriptionEventCallbacks
+        if not isinstance(callbacks, expected):
+            raise TypeError(f"event_callbacks must be such as {expected.__name__}(deadline=…), got {callbacks!r}")
         full_name = self._ros_full_name_of(topic)
         profile = checked_profile(qos_profile)
         quality = profile.quality(what)
