@@ -81,7 +81,7 @@ class Builder:
         self.ended: dict[str, list[str]] = {"finished": [], "failed": [], "aborted": [], "had stderr output": []}
 
     def run(self) -> int:
-        """Build the plan's packages; return colcon's exit code."""
+        """Build the packages; return colcon's exit code."""
         prepare(self.install, self.build, self.log, self.layout)
         self._pass(_BEGIN)
         self._say("console_package_list", "\n- ".join(["Topological order", *(found.name for found in self.waiting)]))
