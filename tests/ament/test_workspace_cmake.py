@@ -93,6 +93,10 @@ def test_a_definition_that_nobody_names_is_spoken_of(
         ("DIRECTORY tools/ DESTINATION x USE_SOURCE_PERMISSIONS", "notes.txt old/late.py* run.py*"),
         ('DIRECTORY tools/ DESTINATION x PATTERN "old" EXCLUDE', "notes.txt old/late.py run.py"),
         ("DIRECTORY tools/ DESTINATION x FILE_PERMISSIONS OWNER_READ OWNER_EXECUTE", "notes.txt* old/late.py* run.py*"),
+        (
+            "DIRECTORY . DESTINATION x",
+            "CMakeLists.txt demo/node.py package.xml tools/notes.txt tools/old/late.py tools/run.py",
+        ),
         ("FILES tools/run.py tools/notes.txt DESTINATION x", "notes.txt run.py"),
         ("FILES tools/run.py DESTINATION x PERMISSIONS OWNER_READ OWNER_EXECUTE", "run.py*"),
     ],

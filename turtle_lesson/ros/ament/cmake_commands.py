@@ -70,7 +70,7 @@ def install_items(found: Found, command: Command, name: str, hints: list[str]) -
         close = did_you_mean(shown, names_in(found.path, ".py" if is_program else ""))
         hint = f"{at}, names '{shown}', which does not exist. {close}".strip()
         raise refused(text, "cmake_install.cmake:46 (file)", hint, seconds=1.2)
-    own_name = "" if source.is_dir() and name.endswith("/") else command.after("RENAME") or source.name
+    own_name = "" if source.is_dir() and name.endswith("/") else command.after("RENAME") or Path(name).name
     target = "/".join(filter(None, (destination, own_name)))
     # Without USE_SOURCE_PERMISSIONS a copy cannot be run, whatever the file itself can. Patterns have no effect.
     options = until({"PATTERN", "REGEX"}, command.args)
@@ -152,7 +152,7 @@ class InterfaceCheck:
             kind, _, file = name.rpartition("/")
             try:
                 if kind not in FOLDERS or not file.endswith(f".{kind}"):
-                    reason = "an interface lies in msg/, srv/ or action/, and its name ends in the same word"
+                    reason = "an interface is named as msg/Name.msg, srv/Name.srv or action/Name.action"
                     raise InvalidDefinition(reason).locate(interface=name, file=str(folder / name))
                 own.definition(name.removesuffix(f".{kind}"))
             except InvalidDefinition as error:
