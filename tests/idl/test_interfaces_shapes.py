@@ -248,6 +248,16 @@ def test_what_no_build_gets_through_is_refused_with_its_line(line: str, said: st
     assert str(error).startswith("demo_msgs/msg/Demo, line 2, '")
 
 
+def test_what_python_has_no_class_for_is_refused(tmp_path: Path) -> None:
+    registry = Registry()
+    files = {"msg/None.msg": "int8 x\n", "srv/None.srv": "---\n", "msg/Odd.msg": "float32 wire_copy\n"}
+    registry.add("odd_msgs", write_package(tmp_path, files))
+    assert [str(fault).partition(" (")[0].partition(": ") for fault in faults_of(registry, "odd_msgs")] == [
+        (f"odd_msgs/{file}", ": ", "Python cannot have a class of this name, or with these fields")
+        for file in ("msg/None.msg", "msg/Odd.msg", "srv/None.srv")
+    ]
+
+
 def test_large_messages_are_made_and_travel_in_reasonable_time() -> None:
     began = time.process_time()
     large = message_class(

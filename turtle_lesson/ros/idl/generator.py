@@ -134,7 +134,11 @@ class _Builder:
         self.source += "\n\n" if self.source else ""
         first_line = self.source.count("\n")
         self.source += source
-        exec(compiled("\n" * first_line + source, str(self._module.__file__)), self._globals)
+        try:
+            exec(compiled("\n" * first_line + source, str(self._module.__file__)), self._globals)
+        except (SyntaxError, ValueError) as error:  # such as of a message None, or a field wire_copy
+            refused = InvalidDefinition(f"Python cannot have a class of this name, or with these fields ({error})")
+            raise refused.locate(interface=definition.full_name, file=definition.file) from None
 
     def _kind(self, definition: Definition, field: Field) -> Kind:
         check_buildable(field)
