@@ -371,8 +371,9 @@ def test_a_constructor_converts_numbers_as_ros_does():
 def test_a_signature_tells_the_fields():
     expected = "(*, x=0.0, y=0.0, z=0.0, w=1.0, **_unknown)"
     assert str(inspect.signature(Quaternion)) == expected
-    assert str(inspect.signature(Twist)) == "(*, linear=Ellipsis, angular=Ellipsis, **_unknown)"
+    assert str(inspect.signature(Twist)) == "(*, linear=..., angular=..., **_unknown)"
     assert "linear: geometry_msgs/Vector3" in Twist.__doc__
+    assert "must be a sub message" in refused(AssertionError, lambda: Twist(linear=...))
 
 
 @pytest.mark.parametrize("name", ["self", "value", "type", "data", "array", "cls", "property", "len", "other"])

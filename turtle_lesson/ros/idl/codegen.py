@@ -211,7 +211,7 @@ def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
     same = [kind.same.format(value=f"self._{kind.name}", other=f"other._{kind.name}") for kind in kinds]
     arguments, construct = "*, " if kinds else "", []
     for kind in kinds:
-        default = kind.fresh if kind.shares_default else "..."  # which stands for a fresh value
+        default = kind.fresh if kind.shares_default else "_unset"
         value = kind.construct.format(value=kind.name) or _stored(kind, kind.name)
         arguments += f"{kind.name}={default}, "
         given = value if kind.shares_default else f"{kind.fresh} if {kind.name} is {default} else {value}"

@@ -40,7 +40,7 @@ _SHARED = (
 )  # fmt: skip
 COMMON: dict[str, Any] = {
     **{f"_{each.__name__}": each for each in (array, *_BUILT_IN, *_SHARED)},
-    **{"_new": object.__new__, "_plain_text": message.plain_text},
+    **{"_new": object.__new__, "_plain_text": message.plain_text, "_unset": message.Unset()},
 }
 """The globals of each generated module."""
 

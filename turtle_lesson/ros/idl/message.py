@@ -22,6 +22,13 @@ class TypeSupport:
     name: str
 
 
+class Unset:
+    """The default of a constructor's argument that stands for a fresh value: no value that a program could pass."""
+
+    def __repr__(self) -> str:
+        return "..."
+
+
 def message_repr(message: Any) -> str:
     """`geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0)`."""
     kind = type(message)
