@@ -14,7 +14,6 @@ from .views import Views, Widget
 
 if TYPE_CHECKING:
     from ..lab.graph import GraphPicture
-    from ..lab.recorder import Recorder
     from .robot_backend import RobotBackend
 
 
@@ -92,7 +91,3 @@ class Robot(Views):
     def _check_connected(self) -> None:
         if self._backend.ended:
             raise RuntimeError("this connection has ended: robot = connect() makes a new one")
-
-    @property
-    def _recording(self) -> Recorder:
-        return self._backend.recorder

@@ -48,7 +48,7 @@ Widget = TypeVar("Widget")
 
 
 class Views:
-    """The pictures and widgets of a running system, which a subclass names: `_backend` and `_recording`."""
+    """The pictures and widgets of a running system, whose `_backend` a subclass names."""
 
     @cached_property
     def _backend(self) -> SimBackend | RobotBackend:
@@ -57,7 +57,7 @@ class Views:
 
     @property
     def _recording(self) -> Recorder:
-        raise NotImplementedError
+        return self._backend.recorder
 
     def _widget(self, kind: Callable[..., Widget], *arguments: Hashable) -> Widget:
         """The widget of this kind and these arguments; made now if there is none yet."""
