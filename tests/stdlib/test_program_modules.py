@@ -288,13 +288,13 @@ def test_a_robots_calendar_shows_robot_time_in_utc(world: World, write: Write, c
     program = write(
         "program.py",
         """
-        import datetime, time
+        import datetime, pickle, time
         from datetime import date, datetime as moment, timezone
         time.sleep(90)
         now = moment.now()
         print(now.replace(microsecond=0), moment.utcnow().minute, date.today(), moment.now(timezone.utc).tzname())
         print(isinstance(now, datetime.datetime), isinstance(date.today(), moment), issubclass(moment, date))
-        print(round(now.timestamp() - time.time(), 3))
+        print(round(now.timestamp() - time.time(), 3), pickle.loads(pickle.dumps(now)) == now)
         print(time.strftime("%H:%M"), time.ctime(), time.localtime().tm_hour, time.mktime(time.localtime()) - time.time() < 1)
         print(moment.fromtimestamp(0), repr(now - now), moment(2027, 1, 15) < now, moment.fromisoformat("2027-01-15"))
         """,
@@ -302,7 +302,7 @@ def test_a_robots_calendar_shows_robot_time_in_utc(world: World, write: Write, c
     assert outcome(world, capsys, program, seconds=100) == [
         "2027-01-15 08:01:30 1 2027-01-15 UTC",
         "True False True",
-        "-0.0",
+        "-0.0 True",
         "08:01 Fri Jan 15 08:01:30 2027 8 True",
         "1970-01-01 00:00:00 datetime.timedelta(0) True 2027-01-15 00:00:00",
     ]

@@ -7,6 +7,7 @@ a program prints the same text everywhere.
 from __future__ import annotations
 
 import calendar
+import copyreg
 import datetime as real
 import time
 from collections.abc import Callable
@@ -124,6 +125,14 @@ class datetime(real.datetime, metaclass=_Date):
         """The same moment in another time zone."""
         moment = self if self.tzinfo is not None else self.replace(tzinfo=UTC)
         return real.datetime.astimezone(moment, UTC if tz is None else tz)
+
+
+def _reduced(each: Any) -> tuple[Any, ...]:
+    return type(each)._behind, each.__reduce_ex__(4)[1]
+
+
+copyreg.pickle(date, _reduced)  # in a pickle they are of the real classes
+copyreg.pickle(datetime, _reduced)
 
 
 def make_module() -> ModuleType:
