@@ -425,6 +425,26 @@ def test_a_node_is_added_once_and_moves_from_one_executor_to_the_other(run: Run)
     assert run(program) == [True, False, True, True, True, [], True, [], [], True, True, None, []]
 
 
+def test_a_callback_that_waits_forever_after_its_program_has_ended_is_explained(
+    run: Run, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def program(found: list[Any]) -> None:
+        node = start()
+        client = node.create_client(AddTwoInts, "nobody")
+
+        def tick() -> None:
+            time.sleep(1.0)
+            client.call(AddTwoInts.Request())
+
+        node.create_timer(0.1, tick)
+        executor = MultiThreadedExecutor(2)
+        executor.add_node(node)
+        executor.spin_once()
+
+    run(program)
+    assert "NeverWakes: this call of /nobody can never be answered" in capsys.readouterr().err
+
+
 def test_only_nodes_can_be_spun(world: World) -> None:
     class Navigator(Node):
         def __init__(self) -> None:

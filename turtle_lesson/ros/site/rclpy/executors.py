@@ -20,7 +20,7 @@ from greenlet import GreenletExit
 
 from turtle_lesson.ros.distro import EXECUTOR_AS_CONTEXT, SHUTDOWN_WAITS_FOR_THREADS, TASKS_IN_ORDER
 from turtle_lesson.ros.runtime.world import current_process, current_world
-from turtle_lesson.ros.sim.errors import NeverWakes
+from turtle_lesson.ros.sim.errors import NeverWakes, print_error
 from turtle_lesson.ros.sim.simulation import NANOSECONDS
 from turtle_lesson.ros.sim.strand import Strand, running_strand
 from turtle_lesson.ros.stdlib.deadlock import IDLE, look_after, wait_in_vain
@@ -631,3 +631,6 @@ class MultiThreadedExecutor(Executor):
         finally:
             strand.waits_for = None
             self._end_waiting(strand)
+        for error in self._failures:
+            if isinstance(error, NeverWakes):  # a real program would hang
+                print_error(error)
