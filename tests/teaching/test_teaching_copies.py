@@ -66,14 +66,23 @@ def test_moodle(tmp_path: Path) -> None:
     assert learners(flat) == [("Ben Bär", f"Ben Bär_101_assignsubmission_file_{PAGE}")]
 
 
-def test_two_weeks_of_one_learner_stand_together(tmp_path: Path) -> None:
-    first = zipped(tmp_path / "1.zip", *(f"{who}_assignsubmission_file_/{PAGE}" for who in ("Bo_7", "Kim_8")))
+def test_two_weeks_of_one_learner_stand_together_and_two_of_one_name_apart(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = zipped(tmp_path / "1.zip", *(f"{who}_assignsubmission_file_/{PAGE}" for who in ("Bo_7", "Kim_8", "Kim_9")))
     second = zipped(tmp_path / "2.zip", *(f"{who}_assignsubmission_file_/{OTHER}" for who in ("Bo_17", "Cy_20")))
     assert learners(first, second) == [
         ("Bo", PAGE),
         ("Bo", OTHER),
-        ("Kim", PAGE),
+        ("Kim (8)", PAGE),
+        ("Kim (9)", PAGE),
         ("Cy", OTHER),
+    ]
+    folder = lay_out(tmp_path / "2", *(f"{who}_assignsubmission_file_/{PAGE}" for who in ("Kim_8", "Kim_9")))
+    monkeypatch.chdir(folder / "Kim_8_assignsubmission_file_")
+    assert learners(Path(".."), Path("..", "Kim_9_assignsubmission_file_", PAGE)) == [
+        ("Kim (8)", PAGE),
+        ("Kim (9)", PAGE),
     ]
 
 

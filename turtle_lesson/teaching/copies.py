@@ -8,13 +8,13 @@ same before each file's name; GitHub Classroom's `ASSIGNMENT-submissions/ASSIGNM
 from __future__ import annotations
 
 import contextlib
-import itertools
 import os
 import re
 import signal
 import site
 import zipfile
 import zlib
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,7 +24,7 @@ import psutil
 
 from .pages import PageError
 
-MOODLE = re.compile(r"([^_]+)(?:_\d+)?_assignsubmission_file(?:_.*)?")
+MOODLE = re.compile(r"([^_]+)(?:_(\d+))?_assignsubmission_file(?:_.*)?")
 """A folder that Moodle makes for a learner or a group (in some releases with a `_` at its end), or how it names a file."""
 
 
@@ -75,29 +75,32 @@ def find(paths: Iterable[Path]) -> list[Copy]:
             found |= {Copy(path / name, member=name): path for name in names}
         else:
             found[Copy(path)] = path
-    owned = [replace(copy, learner=_owner(copy.path.absolute(), root.absolute())) for copy, root in found.items()]
+    owners = [(copy, *_owner(copy.path, root)) for copy, root in found.items()]
+    namesakes = Counter(who for who, _ in {(who, number) for _, who, number in owners})
+    named = [replace(copy, learner=who.name + (number if namesakes[who] > 1 else "")) for copy, who, number in owners]
     order: dict[str, int] = {}
-    return sorted(owned, key=lambda copy: order.setdefault(copy.learner or str(copy.path), len(order)))
+    return sorted(named, key=lambda copy: order.setdefault(copy.learner or str(copy.path), len(order)))
 
 
 def _is_hidden(path: Path) -> bool:
     return any(part.startswith(".") or part == "__MACOSX" for part in path.parts)
 
 
-def _owner(path: Path, root: Path) -> str:
-    """Whose a copy is that was found in `root`, one of the paths that are named; "" in an unknown layout."""
-    parts = path.parts
-    for part in parts:
-        if found := MOODLE.fullmatch(part):
-            return found[1].strip()
-    for index, part in enumerate(parts[:-3]):  # nbgrader's, but no folder of that name above what is named
-        if part == "submitted" and index >= len(root.parts) - 1:
-            return parts[index + 1]
-    for part, inside in itertools.pairwise(parts[:-1]):  # `gh classroom clone student-repos` makes such folders
-        assignment = part.removesuffix("-submissions")
-        if assignment != part and inside.startswith(f"{assignment}-"):
-            return inside.removeprefix(f"{assignment}-")
-    return ""
+def _owner(path: Path, root: Path) -> tuple[Path, str]:
+    """Whose a copy is that was found in `root`, one of the paths that are named: the learner's name, in the place where names
+    were collected, and Moodle's number of the learner. No name in an unknown layout."""
+    path, root = Path(os.path.abspath(path)), Path(os.path.abspath(root))
+    way = [*reversed(path.parents), path]
+    for here in way:
+        if found := MOODLE.fullmatch(here.name):
+            return here.parent / found[1].strip(), f" ({found[2]})" if found[2] else ""
+    for here in way[:-1]:
+        place, assignment = here.parent, here.parent.name.removesuffix("-submissions")
+        if place.name == "submitted" and place.is_relative_to(root) and here != path.parent:
+            return here, ""
+        if assignment != place.name and here.name.startswith(f"{assignment}-"):  # made by `gh classroom`
+            return place / here.name.removeprefix(f"{assignment}-"), ""
+    return Path(), ""
 
 
 # -- what a copy gets of the machine -----------------------------------------------------------------------------------
