@@ -62,4 +62,5 @@ def test_they_find_a_message_that_comes_too_early(project: Path) -> None:
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", chosen]
     said = subprocess.run(command, cwd=project, capture_output=True, text=True).stdout
     assert "first[seed0]" in said and re.search(r"^1 failed, 1 passed", said, re.MULTILINE), said
-    assert "again = replay(test_it_patrols_from_anywhere_whichever_node_is_up_first, seed=0, package=" in said
+    again = f"seed=0, package={str(project / 'src/patrol')!r}, "
+    assert f"again = replay(test_it_patrols_from_anywhere_whichever_node_is_up_first, {again}" in said

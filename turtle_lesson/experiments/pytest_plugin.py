@@ -75,7 +75,7 @@ def _planned(metafunc: pytest.Metafunc, given: dict[str, Any]) -> tuple[list[Run
     setting = {name: given.pop(name, value) for name, value in SETTING.items()}
     package, root = setting["package"], metafunc.config.rootpath  # wherever pytest was started
     if isinstance(package, (str, Path)) and (root / package).is_dir():
-        setting["package"] = root / package
+        setting["package"] = str(root / package)
     accepted = inspect.signature(metafunc.function).parameters
     for name in given:
         if name not in accepted or accepted[name].default is not inspect.Parameter.empty:
