@@ -114,8 +114,9 @@ def test_a_failed_row_says_where_and_what_was_printed_and_not_which_worker_it_wa
     assert wrong.startswith("TypeError: drive must return a dict of numbers, texts") and wrong.endswith(
         "got 'path': [1, 2]"
     )
-    named = results.where(kind="own name", seed=1).rows[0]["error"]
-    assert named == "TypeError: drive returned 'outcome', a column that each table has already: give it another name"
+    named = results.where(kind="own name", seed=1).rows[0]
+    said = "TypeError: drive returned 'outcome', a column that each table has already: give it another name"
+    assert (named["error"], named["traceback"]) == (said, None)
     assert all(row["printed"] is None for row in results.ok)
 
 

@@ -118,7 +118,7 @@ def open_run(setting: Setting, run: Run) -> Lesson:
 def call_in(lesson: Lesson, function: Callable[..., Any], run: Run) -> Ending:
     """Call the function in its world; what came of it. No error is raised."""
     try:
-        ending = Ending(OK, plain_values(function, function(lesson, **run.parameters)))
+        ending = _returned(function, function(lesson, **run.parameters))
     except errors.OutOfTime as error:
         ending = Ending(ROBOT_TIME, error=f"the run was not over when {error}", traceback=errors.format_error(error))
     except BaseException as error:
@@ -140,22 +140,21 @@ def plain(value: Any) -> Any:
     return value.item() if hasattr(value, "item") and getattr(value, "ndim", None) == 0 else value
 
 
-def plain_values(function: Callable[..., Any], returned: Any) -> dict[str, Any]:
-    """What a function has returned, as values that a table can hold. Raises TypeError for anything else."""
+def _returned(function: Callable[..., Any], returned: Any) -> Ending:
+    """The end of a run whose function has returned this: values that a table can hold, or a mistake without a traceback."""
     if returned is None:
-        return {}
+        return Ending(OK)
     name = name_of(function)
     values = {key: plain(value) for key, value in returned.items()} if isinstance(returned, dict) else {}
     wrong = [key for key, value in values.items() if not (isinstance(key, str) and isinstance(value, PLAIN))]
     if wrong or not isinstance(returned, dict):
         got = f"{wrong[0]!r}: {returned[wrong[0]]!r}" if wrong else repr(returned)
-        raise TypeError(
-            f"{name} must return a dict of numbers, texts, True, False or None by their names, such as "
-            f'{{"seconds": 4.2}}, or nothing, got {got:.80}'
-        )
+        said = f"TypeError: {name} must return a dict of numbers, texts, True, False or None by their names, such as "
+        return Ending(RAISED, error=f'{said}{{"seconds": 4.2}}, or nothing, got {got:.80}')
     if own := [key for key in values if key in OWN]:
-        raise TypeError(f"{name} returned {own[0]!r}, a column that each table has already: give it another name")
-    return values
+        said = f"TypeError: {name} returned {own[0]!r}, a column that each table has already: give it another name"
+        return Ending(RAISED, error=said)
+    return Ending(OK, values)
 
 
 # -- in a worker process -------------------------------------------------------------------------------------------------
