@@ -138,6 +138,20 @@ def test_it_can_be_mended_by_code_in_a_cell(capsys: pytest.CaptureFixture[str]) 
     assert case.check().passed
 
 
+def test_one_status_in_two_seconds_shows_no_fall() -> None:
+    lesson = start()
+    case = lesson.trouble(name="status comes twice")
+    run_line(lesson._world, "kill 1004 1007")
+    import rclpy
+    from robot_controller.msg import TurtleStatus
+
+    rclpy.init()
+    node = rclpy.create_node("status_monitor")
+    publisher = node.create_publisher(TurtleStatus, "/robot/status", 10)
+    node.create_timer(1.9, lambda: publisher.publish(TurtleStatus(battery=50.0)))
+    assert case.check().rows[-1].seen == "not looked at, because only one message came on /robot/status in 2 s"
+
+
 def test_a_seed_always_brings_the_same_case_and_all_of_them_come(capsys: pytest.CaptureFixture[str]) -> None:
     lesson = start()
     first, again = lesson.trouble(3), lesson.trouble(3)

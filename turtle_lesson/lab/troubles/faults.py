@@ -213,6 +213,8 @@ def battery_falls(probe: Probe) -> Seen:
     """The battery falls by a tenth of a percent a message, ten times a second."""
     heard = some(probe, STATUS, STATUS_TYPE, 2.0)
     first, last = heard[0], heard[-1]
+    if last is first:
+        raise CannotLook(f"only one message came on {STATUS} in 2 s")
     if last.message.battery <= 0.0:
         raise CannotLook("the battery is empty: start the monitor again")
     fall = (first.message.battery - last.message.battery) / (last.at - first.at)
