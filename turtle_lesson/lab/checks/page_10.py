@@ -231,7 +231,7 @@ def _reached(probe: Probe) -> Seen:
     if wrong := next(filter(None, map(missed, drives)), ""):
         return Seen(False, f"goal {wrong}", step)
     if not all(seen.good for seen in pace.values()):
-        raise CannotLook("the work was cut short, because messages came too rarely or too often")
+        raise CannotLook("messages came too rarely or too often meanwhile")
     far = max(it.distance() for it in drives)
     return Seen(True, f"{count(len(drives), 'goal')}, all of them, at most {number(far)} m off")
 
