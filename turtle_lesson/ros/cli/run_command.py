@@ -20,7 +20,7 @@ from typing import TextIO, cast
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
 from ..launching.commands import UnknownCommand
-from ..runtime.world import Waiter, World, current_process
+from ..runtime.world import World, current_process, wait_for_end
 from ..sim.process import Output
 from .arguments import WIDTH, Stop, cut
 from .jobs import Errors, jobs, lasting
@@ -63,10 +63,9 @@ def run(
         print(f"[{job.number}] {process.pid}")
         world.sim.settle()
         return 0
-    waiter = Waiter(world, call.verb.prog)
-    process = world.spawn(main, name="ros2", argv=words, stdout=stdout, stderr=errors, on_exit=waiter.ended)
+    process = world.spawn(main, name="ros2", argv=words, stdout=stdout, stderr=errors)
     process.state(Invocation).shown = stdout is sys.stdout
-    reason = waiter.wait(process)
+    reason = wait_for_end(process, call.verb.prog)
     if reason:
         print(f"{call.verb.prog}: {reason}", file=errors)
     return process.exit_code or 0

@@ -22,7 +22,7 @@ from ..sim.errors import SimulationError, is_library
 from ..sim.process import Output, Process
 from ..sim.run_blocking import drive
 from ..sim.simulation import NANOSECONDS, Simulation
-from ..sim.strand import Strand, running_strand
+from ..sim.strand import running_strand
 from ..stdlib import ownership, patches
 from ..stdlib.clocks import real_monotonic, real_sleep
 from ..stdlib.process_state import encoded
@@ -173,47 +173,37 @@ def live_rate(world: World) -> float | None:
     return player.rate if player is not None and player.playing and math.isfinite(player.rate) else None
 
 
-class Waiter:
-    """Waits until a process has ended. Its `ended` is the process's `on_exit`."""
+def wait_for_end(process: Process, what: str) -> str:
+    """Let the world run until the process has ended; it is interrupted if it can never end. Returns why, or nothing.
 
-    def __init__(self, world: World, what: str) -> None:
-        self._world = world
-        self._what = what
-        self._strand: Strand | None = None
+    `what` is how the wait is called in that sentence. Raises KeyboardInterrupt if the user stops it; the process has been
+    interrupted then, too.
+    """
 
-    def ended(self, process: Process) -> None:
-        """The process is dead: the callers that wait for it continue."""
-        if self._strand is not None:
-            self._world.sim.wake(self._strand)
-
-    def wait(self, process: Process) -> str:
-        """Let the world run until the process has ended; it is interrupted if it can never end. Returns why, or nothing.
-
-        Raises KeyboardInterrupt if the user stops it; the process has been interrupted then, too.
-        """
-        rate = live_rate(self._world)
-        try:
-            if rate is None:
-                drive(self._world.notebook, self._park, process, limit=PATIENCE)
-            else:
-                _play(self._world, rate, lambda: not process.alive)
-        except SimulationError as error:
-            process.interrupt()
-            return str(error)
-        except KeyboardInterrupt:
-            process.interrupt()
-            raise
-        finally:
-            self._strand = None
-            if process.alive:
-                process.kill()
-        return ""
-
-    def _park(self, process: Process) -> None:
-        self._strand = strand = running_strand()
+    def park() -> None:
+        strand = running_strand()
         assert strand is not None
-        strand.activity = self._what
-        strand.simulation.wait_for(strand, lambda: process.exit_code is not None)
+        strand.activity = what
+        process.at_exit.append(partial(world.sim.wake, strand))
+        world.sim.wait_for(strand, lambda: not process.alive)
+
+    world: World = process.world
+    rate = live_rate(world)
+    try:
+        if rate is None:
+            drive(world.notebook, park, limit=PATIENCE)
+        else:
+            _play(world, rate, lambda: not process.alive)
+    except SimulationError as error:
+        process.interrupt()
+        return str(error)
+    except KeyboardInterrupt:
+        process.interrupt()
+        raise
+    finally:
+        if process.alive:
+            process.kill()
+    return ""
 
 
 def run_for(world: World, seconds: float) -> None:
