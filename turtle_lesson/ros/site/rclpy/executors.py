@@ -222,14 +222,11 @@ class Executor:
         simulation = self._simulation
         if deadline is not None:
             simulation.at(deadline, simulation.wake, strand)
-        waiters = self._waiters
-        waiters.append(strand)
-        self._waiter = strand
+        self._begin_waiting(strand)
         try:
             simulation.park(strand)
         finally:
-            waiters.remove(strand)
-            self._waiter = waiters[-1] if waiters else None
+            self._end_waiting(strand)
 
     def _begin_waiting(self, strand: Strand) -> None:
         self._waiters.append(strand)
