@@ -134,16 +134,15 @@ FILTERS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "
 
 
 def _filters_of(options: dict[str, Any]) -> dict[str, Any]:
-    """The options of a log call that are set. Raises TypeError or ValueError if they make no sense."""
+    """The options of a log call that are set. Raises TypeError if they make no sense."""
     for name in options:
         if name not in FILTERS:
             hint = did_you_mean(name, FILTERS)
             raise TypeError(f'parameter "{name}" is not one of the recognized logging options "{list(FILTERS)}"{hint}')
     found = {name: options[name] for name in FILTERS if options.get(name)}
     pause, clock = found.get("throttle_duration_sec", 0), found.get("throttle_time_source_type")
-    if not isinstance(pause, (int, float)) or (
-        clock and not ("throttle_duration_sec" in options and hasattr(clock, "_now"))
-    ):
+    fits = clock is None or (hasattr(clock, "_now") and "throttle_duration_sec" in options)
+    if not fits or not isinstance(pause, (int, float)):
         what = "throttle_duration_sec is a number of seconds, and throttle_time_source_type a clock such as node.get_clock()"
         raise TypeError(f"{what}, got {options!r}")
     return found
