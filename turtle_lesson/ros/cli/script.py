@@ -8,7 +8,7 @@ import os
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from errno import EACCES
+from errno import EACCES, ENOENT
 from pathlib import Path
 
 from ..runtime.world import World
@@ -179,22 +179,27 @@ def expand(word: Word, *, home: Path, exit_code: int) -> list[str]:
 # `python3 FILE.py …` and `./FILE.py …`: run a file as a program of this world, as `ros2 run` does with those of packages.
 
 _PYTHON = re.compile(r"python(3(\.\d+)?)?")
+_PATH = re.compile(r"[^()=]*/[^()=]*")
 
 
 def script_of(words: Sequence[str]) -> list[str] | None:
     """The file and the arguments of a command that runs Python: `python3 FILE …`, or `./FILE …` if its first line says so.
 
-    None for what the computer has to do. Raises PermissionError if the file may not be run.
+    None for what the computer has to do. Raises OSError if there is no such file, or it may not be run, and ValueError if
+    it is no program in Python.
     """
     by_name = not _PYTHON.fullmatch(words[0])
     argv = list(words if by_name else words[1:])
-    if not argv or not os.path.isfile(argv[0]) or (by_name and "/" not in argv[0]):
+    if not argv or argv[0].startswith("-") or (by_name and not _PATH.fullmatch(argv[0])):
         return None
+    if not os.path.isfile(argv[0]):
+        raise FileNotFoundError(ENOENT, "No such file or directory", argv[0] if argv[0] != words[0] else None)
     if by_name and not os.access(argv[0], os.X_OK):
         raise PermissionError(EACCES, f"Permission denied. Make it executable: chmod +x {argv[0]}")
     if by_name:
         with Path(argv[0]).open(encoding="utf-8", errors="replace") as file:
-            return argv if re.match(r"#!.*python[\d.]*\s*$", file.readline(200)) else None
+            if not re.match(r"#!.*python[\d.]*(\s|$)", file.readline(200)):
+                raise ValueError("only programs in Python run here: the first line of theirs is #!/usr/bin/env python3")
     return argv
 
 
