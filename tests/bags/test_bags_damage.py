@@ -400,6 +400,16 @@ def test_many_small_chunks_are_one_large_one(tmp_path: Path) -> None:
         open_bag(path)
 
 
+def test_nothing_is_unpacked_beyond_the_size_that_a_file_may_have(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(scan, "LARGEST", 1 << 18)
+    path = tmp_path / "bomb.mcap"
+    path.write_bytes(mcap_of(chunk(packed_zeros(1 << 19), 1 << 19)))
+    with pytest.raises(BagError, match="100 times as large, or than 0 GiB"):
+        open_bag(path)
+
+
 @pytest.mark.parametrize(
     "messages",
     [

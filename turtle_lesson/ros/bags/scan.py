@@ -28,7 +28,7 @@ MESSAGE_HEAD = struct.Struct("<HIQQ")
 CHUNK_HEAD = struct.Struct("<QQQII")
 
 LARGEST = 4 << 30
-"""How many bytes a file may have."""
+"""How many bytes a file may have, also when its chunks are unpacked."""
 
 MOST_TIMES = 100
 """How many times its size a file may become when its chunks are unpacked."""
@@ -105,8 +105,8 @@ def contents_of(files: list[Path]) -> Contents:
             READERS[file.suffix](file, found, flaws)
         except _Spoiled as error:
             flaws.append(str(error))
-        except (OSError, sqlite3.Error, UnicodeError) as error:  # SQLite's own complaint may not be readable
-            reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        except (OSError, MemoryError, sqlite3.Error, UnicodeError) as error:  # SQLite's own complaint may be unreadable
+            reason = " ".join((str(getattr(error, "strerror", None) or error) or "too little memory").split())
             flaws.append(f"it cannot be read ({''.join(char if char.isprintable() else '?' for char in reason)})")
         found.flaws += [f"{file.name}: {flaw}" for flaw in flaws]
     found.messages.sort(key=lambda message: message[0])
@@ -151,7 +151,7 @@ def _sound_records(data: memoryview, flaws: list[str]) -> Iterator[tuple[int, me
     """Opcode and content of the records of a file, with those in chunks, up to a damage, for which it raises _Spoiled."""
     if data[: len(MAGIC)] != MAGIC:
         raise _Spoiled("it does not begin like an MCAP file")
-    left = max(ALWAYS, MOST_TIMES * len(data))
+    left = min(LARGEST, max(ALWAYS, MOST_TIMES * len(data)))
     has_chunks = False
     for place, opcode, length, body in _records(data, len(MAGIC)):
         if opcode == CHUNK and len(body) >= CHUNK_HEAD.size:
@@ -199,8 +199,8 @@ def _unpacked(place: int, length: int, body: memoryview, most: int, flaws: list[
     records: bytes | memoryview = body[begin + 8 :]
     if compression:
         if size > most:
-            why = f"the file would become more than {MOST_TIMES} times as large, which is no usual recording"
-            raise _Spoiled(f"the chunk at byte {place} is not unpacked: {why}")
+            why = f"more than {MOST_TIMES} times as large, or than {LARGEST >> 30} GiB, which is no usual recording"
+            raise _Spoiled(f"the chunk at byte {place} is not unpacked: the file would become {why}")
         try:
             records = _decompressor(compression).decompress(records, size + 1)  # one byte more shows that it lies
         except Exception:
