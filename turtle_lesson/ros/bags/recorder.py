@@ -194,10 +194,10 @@ class Recorder:
 
 def record(
     bag: BagWriter, selection: Selection, say: Say, seconds: float | None = None, node_name: str = NODE
-) -> Recorder:
+) -> None:
     """Record until interrupted, or for some seconds of robot time. Called in a simulated process.
 
-    However this ends, the bag is completed.
+    However this ends, the bag is completed. `say(severity, text)` is told what happens.
     """
     import rclpy
     from rclpy.signals import SignalHandlerOptions
@@ -218,8 +218,8 @@ def record(
             recorder.close()
         bag.close()
         rclpy.try_shutdown()
-    assert recorder is not None
-    return recorder
+    for sentence in recorder.silent() if recorder is not None else ():
+        say("WARN", sentence)
 
 
 def _interrupt() -> None:
@@ -258,18 +258,16 @@ class Recording:
             raise BagError("topics names no topic: leave it out to record all of them")
         self.path = Path(path).expanduser().absolute()
         self._shown = str(path)
-        self._writer = BagWriter(self.path, storage)
-        self._recorder: Recorder | None = None
-        self._process: Process | None = world.spawn(lambda: self._main(selection), name="rosbag2_recorder")
+        self._writer = writer = BagWriter(self.path, storage)
+        self._process: Process | None = world.spawn(
+            lambda: record(writer, selection, _keep_warnings_only, node_name=HIDDEN_NODE), name=NODE
+        )
         world.at_close.append(self._let_go)
         world.sim.settle()
 
-    def _main(self, selection: Selection) -> None:
-        self._recorder = record(self._writer, selection, _keep_warnings_only, node_name=HIDDEN_NODE)
-
     def _let_go(self) -> None:
         """The world is closed: it ends the recording, which this handle then keeps nothing of."""
-        self._process = self._recorder = None
+        self._process = None
 
     def __repr__(self) -> str:
         state = "done" if self.done else "going on"
@@ -292,8 +290,6 @@ class Recording:
             return
         self._process.interrupt()
         self._writer.close()
-        for sentence in self._recorder.silent() if self._recorder else ():
-            warnings.warn(sentence, stacklevel=2)
 
     def __enter__(self) -> Recording:
         return self

@@ -87,9 +87,7 @@ def _record(args: Namespace) -> None:
         raise _error(reason.replace(str(folder), name)) from None
     say("INFO", "Listening for topics...")
     began = now()
-    recorder = record(bag, selection, say, seconds)
-    for sentence in recorder.silent():
-        say("WARN", sentence)
+    record(bag, selection, say, seconds)
     say("INFO", "Recording stopped")
     if seconds is not None and now() >= began + seconds and args.seconds is None:
         remark(str(end_of_stretch(seconds)))
