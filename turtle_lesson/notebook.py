@@ -88,13 +88,13 @@ def _understand_commands(shell: Any) -> None:
 
         Nothing in its lines is expanded: `{…}` and `$…` are YAML, and not Python.
         """
-        from .ros.cli.shell import Shell, run_line
+        from .ros.cli.shell import run_line, shell_of
         from .ros.runtime.world import current_world
 
         try:
             run_line(current_world(), line if cell is None else f"{line}\n{cell}")
         finally:
-            shell.user_ns["_exit_code"] = Shell(current_world()).exit_code
+            shell.user_ns["_exit_code"] = shell_of(current_world()).exit_code
 
     files.begin_notebook()
     shell.register_magic_function(terminal, "line_cell", cells.MAGIC)

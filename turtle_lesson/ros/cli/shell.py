@@ -12,7 +12,6 @@ import os
 import re
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -49,24 +48,12 @@ class CommandInterrupted(KeyboardInterrupt):
     """The user has stopped a command: what comes after it is not carried out."""
 
 
-@dataclass
-class _Last:
-    """What the last command of a world's terminal came to."""
-
-    exit_code: int = 0
-
-
 class Shell:
-    """Runs scripts in a world, and knows the exit code of the last command of its terminal."""
+    """The terminal of a world: it runs scripts, and knows the exit code of its last command."""
 
     def __init__(self, world: World) -> None:
         self.world = world
-        self._last = world.notebook.state(_Last)
-
-    @property
-    def exit_code(self) -> int:
-        """The exit code of the last command of this world's terminal."""
-        return self._last.exit_code
+        self.exit_code = 0
 
     def run(self, script: str, out: Any, error: Any) -> int:
         """Run a script of one line or several; a failing command prints and does not raise.
@@ -77,7 +64,7 @@ class Shell:
             plan = list(pipelines(tokens(script)))
         except ShellSyntaxError as mistake:
             print(f"syntax error: {cut(str(mistake), 300)}", file=error)
-            self._last.exit_code = SYNTAX
+            self.exit_code = SYNTAX
             return SYNTAX
         for condition, pipeline in plan:
             if condition and (condition == "||") != bool(self.exit_code):
@@ -87,7 +74,7 @@ class Shell:
                 target = out if command is pipeline[-1] else io.StringIO()
                 code = self._one(command, given, target, error)
                 given = target.getvalue() if target is not out else None
-            self._last.exit_code = code
+            self.exit_code = code
         return self.exit_code
 
     def _one(self, command: Command, given: str | None, out: Any, error: Any) -> int:
@@ -110,7 +97,7 @@ class Shell:
             print(f"{cut(words[0] if words else 'bash', 40)}: {cut(text, 300)}", file=error)
             return 1
         except KeyboardInterrupt:
-            self._last.exit_code = INTERRUPTED if words[0] == "ros2" else STOPPED
+            self.exit_code = INTERRUPTED if words[0] == "ros2" else STOPPED
             stopped = f"{cut(' '.join(words), 100)} was stopped, and no command after it was run"
             raise CommandInterrupted(stopped) from None
 
@@ -170,7 +157,12 @@ def _file(name: str, mode: str, instead_of: Any) -> FileOutput:
     return FileOutput(path, instead_of)
 
 
+def shell_of(world: World) -> Shell:
+    """The terminal of a world."""
+    return world.notebook.state(Shell, world)
+
+
 def run_line(world: World, script: str) -> int:
     """Run a script in a world, in the running cell, and return the exit code of its last command."""
     sys.stdout.flush()
-    return Shell(world).run(script, *cell_streams())
+    return shell_of(world).run(script, *cell_streams())
