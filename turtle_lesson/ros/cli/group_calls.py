@@ -13,15 +13,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from .arguments import arg, duration, flag, frequency
-from .typed_values import (
-    add_verbs,
-    class_of,
-    name_argument,
-    populate,
-    read_yaml,
-    stamp,
-    types_of,
-)
+from .typed_values import add_verbs, class_of, name_argument, populate, read_yaml, stamp, types_of
 from .verb import (
     HIDDEN_PREFIX,
     PATIENCE,

@@ -12,18 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..idl.names import is_hidden
 from ..runtime.world import current_world
 from .arguments import ALL_NODES, COUNT_NODES, HIDDEN_NODES, NODE, OF_NODE, arg, flag
-from .verb import (
-    CommandError,
-    ask,
-    find_node,
-    graph_verb,
-    node_names,
-    print_names,
-    services,
-    suggest,
-    topics,
-    verb,
-)
+from .verb import CommandError, ask, find_node, graph_verb, node_names, print_names, services, suggest, topics, verb
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -24,16 +24,7 @@ from .arguments import cut
 from .cells import advice
 from .jobs import Terminal, before_a_command, cell_streams, export, set_for_now
 from .run_command import run as run_ros2
-from .script import (
-    Command,
-    ShellSyntaxError,
-    Word,
-    expand,
-    pipelines,
-    run_script,
-    script_of,
-    tokens,
-)
+from .script import Command, ShellSyntaxError, Word, expand, pipelines, run_script, script_of, tokens
 from .verb import INTERRUPTED
 
 NOT_FOUND = 127
