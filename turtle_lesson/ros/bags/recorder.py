@@ -22,7 +22,7 @@ from ..rmw.graph import Topic
 from ..rmw.writer import Writer
 from ..runtime.world import World
 from ..sim.process import Process
-from ..sim.simulation import EPOCH, NANOSECONDS
+from ..sim.simulation import EPOCH
 from . import BagError, UnrecordableType
 from .writer import BagWriter, profile_of
 
@@ -201,6 +201,7 @@ def record(
     """
     import rclpy
     from rclpy.signals import SignalHandlerOptions
+    from rclpy.task import Future
 
     recorder = None
     try:
@@ -208,9 +209,7 @@ def record(
         node = rclpy.create_node(node_name, start_parameter_services=node_name == NODE, enable_rosout=False)
         names = tuple(node.resolve_topic_name(name) for name in selection.topics)
         recorder = Recorder(node, bag, replace(selection, topics=names), say)
-        if seconds is not None:
-            node.create_timer(max(seconds, 1 / NANOSECONDS), _interrupt)
-        rclpy.spin(node)
+        rclpy.spin_until_future_complete(node, Future(), timeout_sec=seconds)
     except KeyboardInterrupt:
         pass
     finally:
@@ -220,10 +219,6 @@ def record(
         rclpy.try_shutdown()
     for sentence in recorder.silent() if recorder is not None else ():
         say("WARN", sentence)
-
-
-def _interrupt() -> None:
-    raise KeyboardInterrupt
 
 
 def checked_names(names: Iterable[str]) -> tuple[str, ...]:
