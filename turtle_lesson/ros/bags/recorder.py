@@ -192,9 +192,7 @@ class Recorder:
         self._bag.close()
 
 
-def record(
-    bag: BagWriter, selection: Selection, say: Say, seconds: float | None = None, node_name: str = NODE
-) -> None:
+def record(bag: BagWriter, selection: Selection, say: Say, seconds: float | None = None, node_name: str = NODE) -> None:
     """Record until interrupted, or for some seconds of robot time. Called in a simulated process.
 
     However this ends, the bag is completed. `say(severity, text)` is told what happens.

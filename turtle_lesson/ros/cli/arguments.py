@@ -84,8 +84,7 @@ class Parser(argparse.ArgumentParser):
 
     def option_names(self) -> list[str]:
         """All its options."""
-        shown = [action for action in self._actions if action.help != argparse.SUPPRESS]
-        return [name for action in shown for name in action.option_strings]
+        return [name for action in self._actions for name in action.option_strings]
 
     @property
     def actions(self) -> list[argparse.Action]:
