@@ -79,6 +79,8 @@ def test_spinning_calls_the_callbacks_of_cells(lesson: Lesson) -> None:
     assert ticks == {"one": 4, "other": 4}
     lesson.spin(1, one)
     assert ticks == {"one": 6, "other": 4}
+    lesson.spin(1000, one)  # more than a blocking call may take
+    assert ticks == {"one": 2006, "other": 4}
     other.create_timer(0.1, lambda: 1 / 0)
     for _ in range(2):  # and again, the executor of before holds no node back
         with pytest.raises(ZeroDivisionError):

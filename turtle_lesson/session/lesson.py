@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cached_property
+from functools import cached_property, partial
 from importlib.util import find_spec
 from pathlib import Path
 from random import Random
@@ -19,7 +19,9 @@ from ..ros.rmw.network import Conditions, set_conditions
 from ..ros.runtime import files
 from ..ros.runtime.world import World, open_world
 from ..ros.sim.keyboard import key_named
+from ..ros.sim.run_blocking import DRIVE_LIMIT, drive
 from ..ros.sim.simulation import EPOCH, NANOSECONDS
+from ..ros.sim.strand import running_strand
 from ..ros.tools import demo_packages, program, tf2_packages
 from .live import Player, SimBackend, start_simulator
 from .robot import real_ros
@@ -185,8 +187,12 @@ class Lesson(Inspection):
         executor = SingleThreadedExecutor(context=context)
         for node in nodes or list(context._nodes):
             executor.add_node(node)
+        spin = partial(executor.spin_until_future_complete, Future(), float(seconds))
         try:
-            executor.spin_until_future_complete(Future(), float(seconds))
+            if running_strand() is not None:  # a thread of the notebook spins
+                spin()
+            else:
+                drive(self._world.notebook, spin, limit=round(seconds * NANOSECONDS) + DRIVE_LIMIT)
         finally:
             executor.shutdown()
 
