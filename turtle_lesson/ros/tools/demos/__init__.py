@@ -49,9 +49,7 @@ def listener(qos: QoSProfile | int = 10) -> None:
     spin(make)
 
 
-def listener_best_effort() -> None:
-    """`ros2 run demo_nodes_cpp listener_best_effort`: a message that is lost is not sent to it again."""
-    listener(qos_profile_sensor_data)
+listener_best_effort = partial(listener, qos_profile_sensor_data)
 
 
 class Adder(Node):
