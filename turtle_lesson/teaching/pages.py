@@ -103,8 +103,7 @@ def published(path: Path) -> bytes:
 
 
 def find_published(name: str) -> bytes | None:
-    """The published page of a name: as the checkout's version control holds it, or else as it was installed; None if there is
-    none."""
+    """The published page of a name, if there is one: from the checkout's version control, or else as it was installed."""
     file = PUBLISHED / name
     return _from_git(name) or (file.read_bytes() if file.is_file() else None)
 
