@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import pytest
 
 from turtle_lesson.ros.ament.package import Package
-from turtle_lesson.ros.cli.shell import CommandInterrupted, Shell, run_line
+from turtle_lesson.ros.cli.shell import CommandInterrupted, run_line, shell_of
 from turtle_lesson.ros.runtime.world import World, live_rate
 from turtle_lesson.ros.stdlib.clocks import real_monotonic
 
@@ -76,7 +76,7 @@ def test_a_command_is_paced_and_ends_by_itself(live: World) -> None:
 def test_what_never_ends_goes_on_until_the_stop_button(live: World, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(CommandInterrupted, match="ros2 topic echo /word was stopped"):
         interrupted_after(1.0, lambda: run_line(live, "ros2 topic echo /word || echo on; echo on"))
-    assert Shell(live).exit_code == 2, "as the real one gives"
+    assert shell_of(live).exit_code == 2, "as the real one gives"
     assert live.now > 6_000_000_000, "it would have stopped after 5 s, were it not live"
     out = capsys.readouterr().out
     assert out.startswith("data: hello\n---\n")
