@@ -10,6 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import rclpy
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.validate_topic_name import validate_topic_name
+
 from ..idl.names import did_you_mean
 from ..idl.registry import registry
 from ..rmw.transport import LATENCY, LATENCY_SPREAD
@@ -20,9 +26,6 @@ from .scan import BagTopic
 from .writer import profile_of, schema_text, type_hash
 
 if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.publisher import Publisher
-    from rclpy.qos import QoSProfile
     from rosbags.interfaces import Qos
 
 NODE = "rosbag2_player"
@@ -54,8 +57,6 @@ def play(bag: Bag, how: Playback, say: Say, seconds: float | None = None) -> boo
 
     `say(severity, text)` is told what happens.
     """
-    import rclpy
-
     known = [topic.name for topic in bag.topics]
     for name in how.topics:
         if name not in known:
@@ -113,8 +114,6 @@ def _publishers(node: Node, bag: Bag, how: Playback, say: Say) -> dict[tuple[str
 
 def offer_of(profiles: Sequence[Qos]) -> QoSProfile:
     """What a player offers for a topic whose publishers offered `profiles`: the weakest that all of them kept to."""
-    from rclpy.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
-
     return profile_of(
         reliable=all(profile.reliability.value != ReliabilityPolicy.BEST_EFFORT for profile in profiles),
         latched=bool(profiles) and all(each.durability.value == DurabilityPolicy.TRANSIENT_LOCAL for each in profiles),
@@ -148,8 +147,6 @@ def _class_of(topic: BagTopic) -> Any:
 
 def parse_remaps(rules: list[str]) -> dict[str, str]:
     """From `/old:=/new` to a mapping. Raises BagError, or InvalidTopicNameException for a name that ROS does not allow."""
-    from rclpy.validate_topic_name import validate_topic_name
-
     remaps = {}
     for rule in rules:
         old, sign, new = rule.partition(":=")

@@ -13,7 +13,15 @@ import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import rclpy
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_topic_name import validate_topic_name
 
 from ..idl.cdr import serialize
 from ..idl.names import did_you_mean, is_hidden
@@ -25,9 +33,6 @@ from ..sim.process import Process
 from ..sim.simulation import EPOCH
 from . import BagError, UnrecordableType
 from .writer import BagWriter, profile_of
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
 
 NODE = "rosbag2_recorder"
 """The node of `ros2 bag record`."""
@@ -197,10 +202,6 @@ def record(bag: BagWriter, selection: Selection, say: Say, seconds: float | None
 
     However this ends, the bag is completed. `say(severity, text)` is told what happens.
     """
-    import rclpy
-    from rclpy.signals import SignalHandlerOptions
-    from rclpy.task import Future
-
     recorder = None
     try:
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)  # what is under way is recorded, too
@@ -221,10 +222,6 @@ def record(bag: BagWriter, selection: Selection, say: Say, seconds: float | None
 
 def checked_names(names: Iterable[str]) -> tuple[str, ...]:
     """Names of topics, as a program may give them. Raises InvalidTopicNameException or TypeError."""
-    from rclpy.expand_topic_name import expand_topic_name
-    from rclpy.validate_full_topic_name import validate_full_topic_name
-    from rclpy.validate_topic_name import validate_topic_name
-
     if isinstance(names, str):
         raise TypeError(f'topics is a list of names, got the text {names!r}: try topics=["{names}"]')
     checked = tuple(names)

@@ -20,12 +20,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
 from ..runtime import files
 from ..sim.simulation import NANOSECONDS
 from . import BagError, UnrecordableType
 
 if TYPE_CHECKING:
-    from rclpy.qos import QoSProfile
     from rosbags.interfaces import Connection, Qos
 
 STORAGES = ("mcap", "sqlite3")
@@ -204,8 +205,6 @@ def as_recorded(profile: QoSProfile) -> Qos:
 
 def profile_of(*, reliable: bool, latched: bool, keep_all: bool, depth: int = 0) -> QoSProfile:
     """The profile with which messages are recorded or played."""
-    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
-
     return QoSProfile(
         history=HistoryPolicy.KEEP_ALL if keep_all else HistoryPolicy.KEEP_LAST,
         depth=depth,

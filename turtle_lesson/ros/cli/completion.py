@@ -10,6 +10,7 @@ from typing import Any
 
 import yaml
 from IPython.core.completer import CompletionContext, SimpleCompletion, SimpleMatcherResult, context_matcher
+from rclpy._state import RclpyState
 
 from ..idl.names import is_hidden
 from ..idl.registry import registry
@@ -163,8 +164,6 @@ def _own_type(world: World, name: str) -> list[str]:
 
 def _parameters(world: World, name: str) -> list[str]:
     """The parameters of a node. Tab must not let time pass, so the node's services are not asked, as commands do."""
-    from rclpy._state import RclpyState
-
     nodes = [node for entry in world.graph.nodes for node in entry.process.state(RclpyState).nodes]
     found = [node for node in nodes if node.get_fully_qualified_name() == absolute(name)]
     return [each for node in found[:1] for each in node.list_parameters([], 0).names]

@@ -13,6 +13,8 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
+from rclpy.logging import get_logger
+
 from ..bags import BagError
 from ..runtime import files
 from ..runtime.world import current_process
@@ -146,8 +148,6 @@ def _play(args: Namespace) -> int:
 
 def _logger(name: str) -> Callable[[str, str], None]:
     """What prints a line as the real tool's logger does."""
-    from rclpy.logging import get_logger
-
     logger = get_logger(name)
 
     def say(severity: str, text: str) -> None:

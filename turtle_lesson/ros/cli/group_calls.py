@@ -12,6 +12,9 @@ from collections.abc import Callable
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from rclpy.node import Node
+from rclpy.task import Future
+
 from .arguments import arg, duration, flag, frequency
 from .typed_values import add_verbs, class_of, name_argument, populate, read_yaml, stamp, types_of
 from .verb import (
@@ -34,8 +37,6 @@ from .verb import (
 
 if TYPE_CHECKING:
     from rclpy.action.client import ClientGoalHandle
-    from rclpy.node import Node
-    from rclpy.task import Future
 
 
 LONGEST_ANSWER = 600.0

@@ -7,16 +7,14 @@ from argparse import Namespace
 from collections import Counter
 from collections.abc import Sized
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from rclpy.node import Node
 
 from ..idl.names import is_hidden
 from ..runtime.world import current_world
 from .arguments import ALL_NODES, COUNT_NODES, HIDDEN_NODES, NODE, OF_NODE, arg, flag
 from .verb import CommandError, ask, find_node, graph_verb, node_names, print_names, services, suggest, topics, verb
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
-
 
 TWINS = "WARNING: Be aware that are nodes in the graph that share an exact name, this can have unintended side effects."
 

@@ -7,16 +7,16 @@ import sys
 from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import yaml
+from rclpy.node import Node
+from rclpy.parameter import Parameter, parameter_value_to_python
 
 from ..runtime import files
 from .arguments import HIDDEN_NODES, NODE, OF_NODE, arg, flag
 from .typed_values import MAX_LENGTH, Unparsable, read_yaml
 from .verb import CommandError, ask, find_node, graph_verb, node_names, spin_for, suggest
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
-
 
 # -- parameters' values: from text as typed, to text, and to what YAML has ---------------------------------------------
 # Which text becomes which type follows a recording of the real `ros2 param set`.
@@ -40,7 +40,6 @@ def from_text(text: str) -> Any:
 def from_python(value: Any, text: str) -> Any:
     """The ParameterValue of what YAML gave for a text."""
     from rcl_interfaces.msg import ParameterValue
-    from rclpy.parameter import Parameter
 
     ending = "_ARRAY" if isinstance(value, list) else ""
     kinds = [Parameter.Type[name + ending] for name in ("BOOL", "INTEGER", "DOUBLE", "STRING")]
@@ -89,9 +88,9 @@ def set_values(node: Node, node_name: str, values: dict[str, Any], done: str, fa
 
     `{}` in what is said stands for a parameter's name.
     """
-    from rcl_interfaces.msg import Parameter
+    from rcl_interfaces import msg
 
-    parameters = [Parameter(name=name, value=value) for name, value in values.items()]
+    parameters = [msg.Parameter(name=name, value=value) for name, value in values.items()]
     results = ask(node, node_name, "rcl_interfaces/srv/SetParameters", parameters=parameters).results
     for name, result in zip(values, results, strict=True):
         text = (done if result.successful else failed).format(name)
@@ -108,9 +107,6 @@ def set_values(node: Node, node_name: str, values: dict[str, Any], done: str, fa
 )
 def dump(args: Namespace, node: Node) -> None:
     """All parameters of a node, in the format that `load` reads."""
-    import yaml
-    from rclpy.parameter import parameter_value_to_python
-
     if args.output_dir is not None and not Path(args.output_dir).is_dir():
         raise CommandError(f"'{args.output_dir}' is not a valid directory.")
     name = find_node(node, args)
@@ -217,8 +213,6 @@ def list_parameters(args: Namespace, node: Node) -> None:
 @graph_verb("param get", *OF_NODE, PARAMETER, flag("--hide-type", "Print only the value"))
 def get(args: Namespace, node: Node) -> None:
     """A parameter's value."""
-    from rclpy.parameter import Parameter
-
     name = find_node(node, args)
     values = ask(node, name, "rcl_interfaces/srv/GetParameters", names=[args.parameter_name]).values
     if not values:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import time
 from argparse import Namespace
-from typing import TYPE_CHECKING
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.task import Future
 
 from . import topic_listen  # noqa: F401 - echo, hz, bw and delay are verbs of this command
 from .arguments import LONGEST, NODE, NODE_WITHOUT_DAEMON, arg, duration, either, flag, frequency, seconds, unsigned_int
@@ -39,11 +42,6 @@ from .verb import (
     with_types,
 )
 
-if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.publisher import Publisher
-
-
 PRESET = "system_default"
 TIMES = arg("-t --times", "Publish this many messages", type=unsigned_int, default=0)
 
@@ -65,8 +63,6 @@ TIMES = arg("-t --times", "Publish this many messages", type=unsigned_int, defau
 )
 def pub(args: Namespace) -> None:
     """Publish a message on a topic."""
-    from rclpy.task import Future
-
     profile = profile_of(args, PRESET, reliability="reliable", durability="transient_local", history="keep_last")
     times = 1 if args.once else args.times
     needed = args.wait_matching_subscriptions

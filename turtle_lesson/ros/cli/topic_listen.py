@@ -10,7 +10,12 @@ from collections import deque
 from collections.abc import Callable, Collection
 from itertools import pairwise
 from math import inf, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from rclpy.event_handler import QoSMessageLostInfo, SubscriptionEventCallbacks
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, qos_profile_sensor_data
+from rclpy.task import Future
 
 from ..runtime.world import current_process
 from ..sim.simulation import EPOCH
@@ -31,13 +36,6 @@ from .verb import (
     topics,
     verb,
 )
-
-if TYPE_CHECKING:
-    from rclpy.event_handler import QoSMessageLostInfo
-    from rclpy.node import Node
-    from rclpy.qos import QoSProfile
-    from rclpy.task import Future
-
 
 PRESET = "sensor_data"
 
@@ -64,7 +62,6 @@ PRESET = "sensor_data"
 )
 def echo(args: Namespace) -> None:
     """Print the messages of a topic."""
-    from rclpy.task import Future
     from rosidl_runtime_py.convert import message_to_csv, message_to_yaml
 
     if args.lost_messages:
@@ -191,8 +188,6 @@ def listen(
     Whenever messages turn out to be lost, `lost` is called. Raises Interrupted at the end of the stretch, and CommandError
     if nothing has come until then.
     """
-    from rclpy.event_handler import SubscriptionEventCallbacks
-
     heard = False
     seconds = stretch_of(args)
 
@@ -314,8 +309,6 @@ def _measure(
     raw: bool = False,
 ) -> None:
     """Have `count` called for every message (or its `raw` bytes), and `report` every second."""
-    from rclpy.qos import qos_profile_sensor_data
-
     seconds = stretch_of(args) or inf
     with direct_node(args) as node:
         begun = now()

@@ -5,18 +5,19 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import yaml
+from rclpy import qos
+from rclpy.node import Node
+from rosidl_runtime_py.set_message import set_message_fields
 
 from ..idl.model import InvalidDefinition
 from ..idl.names import did_you_mean
 from ..idl.registry import FOLDERS, registry
+from ..runtime.bounded_yaml import safe_load
 from .arguments import Argument, arg, depth, flag
 from .verb import CommandError, expanded, graph_verb, print_names, suggest, with_types
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.qos import QoSProfile
-
 
 # -- types -----------------------------------------------------------------------------------------------------------
 
@@ -83,10 +84,6 @@ class Unparsable(CommandError):
 
 def read_yaml(text: str, what: str = "The passed value") -> Any:
     """The value of a YAML text. Raises CommandError, in one line, for anything that is none or could be a trap."""
-    import yaml
-
-    from ..runtime.bounded_yaml import safe_load
-
     if len(text) > MAX_LENGTH:
         raise CommandError(f"{what} is too long: at most {MAX_LENGTH} characters of YAML are read")
     try:
@@ -106,8 +103,6 @@ def populate(message: Any, values: Any, *, is_goal: bool = False) -> list[Callab
 
     Returns functions that want the time of sending, for what was typed as `header: auto` or `stamp: now`; none for a goal.
     """
-    from rosidl_runtime_py.set_message import set_message_fields
-
     try:
         return set_message_fields(message, values, expand_header_auto=not is_goal, expand_time_now=not is_goal)
     except (TypeError, AttributeError, ValueError, AssertionError, OverflowError, RecursionError) as error:
@@ -126,7 +121,7 @@ def stamp(setters: list[Callable[[Any], None]], node: Node) -> None:
 
 # -- names in the graph ----------------------------------------------------------------------------------------------
 
-Known = Callable[["Node", bool], dict[str, list[str]]]
+Known = Callable[[Node, bool], dict[str, list[str]]]
 """All names of a kind that are there with their types, also hidden ones if wanted."""
 
 
@@ -224,10 +219,8 @@ def qos_arguments(preset: str, reliability: str, durability: str) -> tuple[Argum
     )
 
 
-def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
+def profile_of(args: Namespace, preset: str, **defaults: str) -> qos.QoSProfile:
     """The profile that the options ask for; `defaults` are policies by short name, used if no preset was given."""
-    from rclpy import qos
-
     profile = qos.QoSProfile(**vars(qos.QoSPresetProfiles.get_from_short_key(args.qos_profile or preset)))
     if (args.qos_depth or 0) > 0:
         profile.depth = args.qos_depth
@@ -239,20 +232,18 @@ def profile_of(args: Namespace, preset: str, **defaults: str) -> QoSProfile:
     return profile
 
 
-def matching_profile(node: Node, topic: str, args: Namespace, preset: str) -> QoSProfile:
+def matching_profile(node: Node, topic: str, args: Namespace, preset: str) -> qos.QoSProfile:
     """What the options ask for; without any, the preset, changed so that a subscription hears every publisher that is there.
 
     A policy is the strong one if all of them offer it, else the weak one, which is said where some offer the strong one.
     """
-    from rclpy.qos import QoSDurabilityPolicy, QoSReliabilityPolicy
-
     profile = profile_of(args, preset)
     if any(value is not None for name, value in vars(args).items() if name.startswith("qos_")):
         return profile
     offers = [info.qos_profile for info in node.get_publishers_info_by_topic(expanded(node, topic))]
     for name, strong, weak in (
-        ("reliability", QoSReliabilityPolicy.RELIABLE, QoSReliabilityPolicy.BEST_EFFORT),
-        ("durability", QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE),
+        ("reliability", qos.ReliabilityPolicy.RELIABLE, qos.ReliabilityPolicy.BEST_EFFORT),
+        ("durability", qos.DurabilityPolicy.TRANSIENT_LOCAL, qos.DurabilityPolicy.VOLATILE),
     ):
         offered = {getattr(each, name) for each in offers}
         if offered:

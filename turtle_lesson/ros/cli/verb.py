@@ -8,21 +8,28 @@ forever in a terminal (as after a Ctrl-C there).
 from __future__ import annotations
 
 import sys
+import time
 from argparse import Namespace
 from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property, wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import rclpy
+from rclpy.exceptions import NameValidationException
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_topic_name import validate_topic_name
 
 from ..idl.names import did_you_mean, is_hidden, module_name, nearest
-from ..runtime.world import current_process
+from ..idl.registry import registry
+from ..runtime.world import current_process, live_rate
 from .arguments import DISCOVERY, STRETCH, Argument, Parser, cut
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.task import Future
-    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 PATIENCE = 5.0
 """How long, in s of robot time, a command waits for what the real one waits for in silence, before it says so."""
@@ -55,7 +62,7 @@ class Invocation:
 
 
 Work = Callable[[Namespace], int | None]
-GraphWork = Callable[[Namespace, "Node"], int | None]
+GraphWork = Callable[[Namespace, Node], int | None]
 """What does a verb's work; one that looks at the graph is given a node. It returns an exit code, or None for 0."""
 
 
@@ -88,8 +95,6 @@ class Verb:
 
     def main(self, args: Namespace) -> int:
         """Do the work. Errors that the real tool tells in a sentence are told in one, on stderr, and so are all others."""
-        from rclpy.exceptions import NameValidationException
-
         try:
             return self.work(args) or 0
         except Interrupted as error:
@@ -143,8 +148,6 @@ def stretch_of(args: Namespace) -> float | None:
     """How long an endless verb goes on, in s; None, in live mode or in the background, until it is interrupted."""
     if args.seconds is not None:
         return args.seconds
-    from ..runtime.world import live_rate
-
     process = current_process()
     endless = process.state(Invocation).background or live_rate(process.world) is not None
     return None if endless else STRETCH
@@ -181,9 +184,6 @@ def now() -> float:
 
 def spin_for(node: Node, seconds: float | None, done: Future | None = None) -> bool:
     """Spin the node for some robot time (s, or None forever) or until `done` is; whether `done` is."""
-    import rclpy
-    from rclpy.task import Future
-
     future = Future() if done is None else done
     rclpy.spin_until_future_complete(node, future, timeout_sec=seconds)
     return future.done()
@@ -197,8 +197,6 @@ def ask(node: Node, name: str, kind: str, service: str = "", **request: Any) -> 
 
     Raises CommandError if the node has no such service, and where the real tool waits forever for a busy node.
     """
-    from ..idl.registry import registry
-
     made, service = registry.get(kind), service or module_name(kind.rpartition("/")[2]).lstrip("_")
     client = node.create_client(made, f"{name}/{service}")
     if not client.wait_for_service(timeout_sec=PATIENCE):
@@ -215,11 +213,6 @@ def ask(node: Node, name: str, kind: str, service: str = "", **request: Any) -> 
 @contextmanager
 def direct_node(args: Namespace | None = None, name: str | None = None) -> Iterator[Node]:
     """A node for the length of a command, hidden unless it is given a name; it has discovered the graph already."""
-    import time
-
-    import rclpy
-    from rclpy.signals import SignalHandlerOptions
-
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.SIGTERM)  # after Ctrl-C a goal is cancelled yet
     try:
         pid = current_process().pid
@@ -285,10 +278,6 @@ def expanded(node: Node, name: str, *, is_service: bool = False) -> str:
 
     Raises NameValidationException where ROS allows no such name, and CommandError for an unknown substitution such as `{x}`.
     """
-    from rclpy.expand_topic_name import expand_topic_name
-    from rclpy.validate_full_topic_name import validate_full_topic_name
-    from rclpy.validate_topic_name import validate_topic_name
-
     validate_topic_name(name, is_service=is_service)
     try:
         full_name = expand_topic_name(name, node.get_name(), node.get_namespace())
