@@ -106,7 +106,7 @@ def code_of(what: str | Path | Sequence[str | Path]) -> dict[str, str]:
     size = sum(map(len, found.values()))
     if size > MOST:
         raise ValueError(
-            f"that is {size} characters of code, too much for a chat: name the files or classes that matter, "
+            f"that is {size} characters of code, too much for a chat: name the files that matter, "
             'such as code="src/robot_controller/robot_controller/navigator_node.py"'
         )
     return found

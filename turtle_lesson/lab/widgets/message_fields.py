@@ -130,8 +130,10 @@ class Field:
 
     def state(self) -> dict[str, str]:
         """What the browser needs to draw it."""
-        hint = "a list in YAML" if self.kind.array else ""
-        if self.kind.base in WHOLE and not self.kind.array:
+        hint = ""
+        if self.kind.array:
+            hint = "a list in YAML: [{field: value, …}, …]" if self.kind.is_message else "a list in YAML: [value, …]"
+        elif self.kind.base in WHOLE:
             hint = "from {} to {}".format(*bounds(self.kind.base)).replace("-", "−")
         return {"path": self.path, "type": str(self.kind), "control": self.control, "help": hint}
 
