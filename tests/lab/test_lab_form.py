@@ -13,7 +13,7 @@ from lab_fakes import order
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.recorder import find_class
 from turtle_lesson.lab.widgets import backend
-from turtle_lesson.lab.widgets.form import publish_line
+from turtle_lesson.lab.widgets.form import in_yaml
 from turtle_lesson.lab.widgets.message_fields import Field, Kind, fields_of, kinds_of, read_kind
 from turtle_lesson.ros.idl.names import bounds, is_hidden
 
@@ -131,9 +131,8 @@ def test_a_byte_is_a_number_in_a_form() -> None:
 
 
 def test_the_line_holds_what_differs_from_the_default() -> None:
-    assert publish_line("/t", "p/msg/T", {}, None) == 'ros2 topic pub --once /t p/msg/T "{}"'
-    line = 'ros2 topic pub --rate 10 /t p/msg/T "{linear: {x: 1.5}}"'
-    assert publish_line("/t", "p/msg/T", {"linear/x": 1.5}, 10.0) == line
+    assert in_yaml({}) == '"{}"'
+    assert in_yaml({"linear/x": 1.5}) == '"{linear: {x: 1.5}}"'
 
 
 @given(st.text(max_size=40))
@@ -141,7 +140,7 @@ def test_any_text_survives_the_shell_and_yaml(text: str) -> None:
     from turtle_lesson.ros.cli.script import Word, tokens
     from turtle_lesson.ros.cli.typed_values import read_yaml
 
-    words = list(tokens(publish_line("/t", "std_msgs/msg/String", {"data": text}, None)))
+    words = list(tokens(f"ros2 topic pub --once /t std_msgs/msg/String {in_yaml({'data': text})}"))
     assert all(isinstance(word, Word) for word in words)
     last = words[-1]
     assert isinstance(last, Word)
@@ -164,7 +163,7 @@ def test_it_publishes_at_a_rate_of_robot_time_until_it_is_stopped(lesson: Lesson
     widget = lesson.form("/turtle1/cmd_vel")
     order(widget, "rate", rate=4)
     order(widget, "repeat")
-    assert "--rate 4 " in widget.line
+    assert widget.line == 'ros2 topic pub --rate 4 /turtle1/cmd_vel geometry_msgs/msg/Twist "{}"'
     lesson.run(1.1)
     order(widget, "stop")
     lesson.run(1)

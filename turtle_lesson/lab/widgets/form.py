@@ -174,13 +174,9 @@ class Form(LiveWidget):
             except ValueError as error:
                 errors[field.path] = str(error)
         self.values, self.errors = {field.path: field.text for field in singles}, errors
-        if errors:
-            self.line = ""
-        elif self.kind == "topic":
-            rate = None if self._timer is None else self.rate
-            self.line = publish_line(self.name, self.type_name, self._changed, rate)
-        else:
-            self.line = f"ros2 service call {self.name} {self.type_name} {_yaml(self._changed)}"
+        how = "--once" if self._timer is None else f"--rate {self.rate:g}"
+        does = f"topic pub {how}" if self.kind == "topic" else "service call"
+        self.line = "" if errors else f"ros2 {does} {self.name} {self.type_name} {in_yaml(self._changed)}"
 
     def _text(self) -> str:
         what = "messages on" if self.kind == "topic" else "requests to"
@@ -202,14 +198,8 @@ def _look_up(node: Node, name: str) -> tuple[str, str, str]:
     raise ValueError(f'there is no topic or service called "{name}" now. {suggestion(name, sorted(names))}')
 
 
-def publish_line(topic: str, type_name: str, values: dict[str, Any], rate: float | None) -> str:
-    """The `ros2 topic pub` that publishes these values, each by its path: once, or so often a second."""
-    how = "--once" if rate is None else f"--rate {rate:g}"
-    return f"ros2 topic pub {how} {topic} {type_name} {_yaml(values)}"
-
-
-def _yaml(by_path: dict[str, Any]) -> str:
-    """Values as one word of a shell: in double quotes as in ROS's own examples, unless a sign there has a meaning."""
+def in_yaml(by_path: dict[str, Any]) -> str:
+    """Values by their paths as one word of a shell: in double quotes as in ROS's own examples, unless a sign has a meaning."""
     import yaml
 
     values: dict[str, Any] = {}
