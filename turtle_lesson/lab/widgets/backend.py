@@ -311,16 +311,10 @@ class LazyClient:
         return any(self._name == name for name, _ in self._backend.node.get_service_names_and_types())
 
     def _done(self, future: Future) -> None:
-        if future is not self._future:
-            return
-        try:
-            response = future.result()
-        except Exception as error:
-            self._end(f"The call failed: {error}")
-            return
-        seconds = number(self._backend.now - self._asked)
-        answer = message_to_yaml(response, truncate_length=LONGEST).strip()
-        self._end(f"{self._name} answered after {seconds} s of robot time.", answer)
+        if future is self._future:
+            seconds = number(self._backend.now - self._asked)
+            answer = message_to_yaml(future.result(), truncate_length=LONGEST).strip()
+            self._end(f"{self._name} answered after {seconds} s of robot time.", answer)
 
     def _end(self, words: str, answer: str = "") -> None:
         self.give_up()

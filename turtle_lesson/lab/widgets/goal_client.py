@@ -145,12 +145,7 @@ class GoalClient:
     def _answered(self, goal: Goal, future: Future) -> None:
         if not goal.waits:
             return
-        try:
-            response = future.result()
-        except Exception as error:
-            self._finish(goal, "no answer", f"The call failed: {error}")
-            return
-        state = "reached"
+        response, state = future.result(), "reached"
         if not response.success:
             drove = response.time_taken or self._backend.now - goal.sent > AT_ONCE
             busy = any(other.state == "on its way" and other.number < goal.number for other in self.goals)
