@@ -52,9 +52,6 @@ class ProgressFile:
         self._read()
         return {name: each for name, each in self._points.items() if each}
 
-    def _take(self, points: dict[str, int]) -> None:
-        self._points |= {name: max(each, self._points.get(name, 0)) for name, each in points.items()}
-
     def _read(self) -> None:
         """Take over the points, and the failures in a row, that the file holds."""
         file = self.path
@@ -64,7 +61,8 @@ class ProgressFile:
             text = file.read_bytes()
             try:
                 content = json.loads(text)
-                self._take(_numbers_in(content, "points"))
+                points = _numbers_in(content, "points")
+                self._points |= {name: max(each, self._points.get(name, 0)) for name, each in points.items()}
                 self._failures |= _numbers_in({"failures": {}, **content}, "failures")
             except (ValueError, RecursionError):
                 aside = files.unused(lambda number: file.with_name(f"{file.name}.broken-{number}"))

@@ -25,14 +25,11 @@ from ..status_and_scan import Beams, plot_status, read_beams
 from ..words import count, listed, number
 from .backend import Link
 from .goal_client import SERVICE
-from .goal_pad import GoalPad
+from .goal_pad import STALE, GoalPad
 from .live_widget import pack
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-LATE = 1.5
-"""Seconds of robot time without a status, or without a scan, after which the panel says so."""
 
 WINDOW = 30.0
 """Seconds of robot time that the curves show."""
@@ -160,7 +157,7 @@ class Dashboard(GoalPad):
         """A sentence on why nothing comes on a topic that the recorder hears, and what to try; "" if something does."""
         if last := table.last():
             age = self.backend.now - self.backend.recorder.seconds(last[0])
-            return f"No {what} for {age:.0f} s." if age > LATE else ""
+            return f"No {what} for {age:.0f} s." if age > STALE else ""
         if self.backend.node.count_publishers(topic):
             return f"No message has come on {topic} yet: messages come while robot time passes."
         return self.backend.recorder.why_silent(topic)

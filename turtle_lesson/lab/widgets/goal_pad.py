@@ -27,7 +27,7 @@ BREAK = np.full((1, 2), np.nan)
 """Where the trail breaks."""
 
 STALE = 1.5
-"""A scan older than this, s of robot time, is not drawn on the map."""
+"""A scan older than this, s of robot time, is not drawn on the map; the panels of scan and status then say so."""
 
 FASTEST = "max"
 """What the browser calls an infinite rate, which JSON does not know."""

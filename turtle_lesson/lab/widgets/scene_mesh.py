@@ -39,11 +39,6 @@ class Mesh:
         return Mesh((self.corners * (1, -1, 1))[:, ::-1], self.colours)
 
 
-def rgb(colour: str) -> tuple[float, float, float]:
-    """A colour such as "#0072B2" as red, green and blue from 0 to 1."""
-    return tuple(int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))  # type: ignore[return-value]
-
-
 def joined(meshes: Iterable[Mesh]) -> Mesh:
     """Several meshes as one."""
     listed = list(meshes)
@@ -51,9 +46,9 @@ def joined(meshes: Iterable[Mesh]) -> Mesh:
 
 
 def triangles(corners: ArrayLike, colour: str) -> Mesh:
-    """Triangles of one colour, from three points each."""
+    """Triangles of one colour such as "#0072B2", from three points each."""
     points = np.asarray(corners, float).reshape(-1, 3, 3)
-    return Mesh(points, np.tile(rgb(colour), (len(points), 1)))
+    return Mesh(points, np.tile([part / 255 for part in bytes.fromhex(colour[1:])], (len(points), 1)))
 
 
 def polygon(points: ArrayLike, colour: str) -> Mesh:
