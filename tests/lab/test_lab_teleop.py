@@ -12,7 +12,7 @@ from lab_fakes import order
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.lab.widgets import teleop as module
-from turtle_lesson.lab.widgets.teleop import Teleop, in_words
+from turtle_lesson.lab.widgets.teleop import Teleop
 
 
 @pytest.fixture
@@ -123,6 +123,7 @@ def test_highest_speeds(lesson: Lesson, hand: Any) -> None:
     order(widget, "limits", forward=0.5)
     order(widget, "drive", forward=-1.0, turn=0.0)
     assert widget.sent["linear"] == -0.5
+    assert "last sent -0.50 m/s and 0.00 rad/s." in repr(widget)
     order(widget, "limits", forward=0)
     assert widget.words == "The highest speed (forward) must be a number from 0.01 to 10, got 0."
     order(widget, "limits", sideways=1.0)
@@ -154,12 +155,6 @@ def test_driving_starts_time() -> None:
         return lesson.now
 
     assert 0.05 < asyncio.run(page()) < 1.0
-
-
-def test_velocities_in_words() -> None:
-    assert in_words(0.0, 0.0) == "zeros (stop)"
-    assert in_words(-1.0, 0.0) == "1.00 m/s backward"
-    assert in_words(1.0, -0.25) == "1.00 m/s forward and 0.25 rad/s to the right"
 
 
 def test_keys_go_to_the_program_that_reads_them(lesson: Lesson, tmp_path: Path, capsys: Any) -> None:

@@ -115,7 +115,7 @@ def test_a_teleop_that_is_held_when_its_world_ends_stops() -> None:
     teleop = running().teleop()
     order(teleop, "drive", forward=1.0, turn=0.0)
     start()
-    assert not teleop.stick["held"] and "last sent zeros (stop)" in repr(teleop)
+    assert not teleop.stick["held"] and "last sent 0.00 m/s and 0.00 rad/s" in repr(teleop)
 
 
 def test_a_closed_widget_leaves_nothing_and_can_be_shown_again() -> None:

@@ -63,15 +63,14 @@ class Teleop(LiveWidget):
         place = {"forward": within("stick's forward", forward, -1, 1), "turn": within("stick's turn", turn, -1, 1)}
         self._last_sign = real_monotonic()
         changed = place != {name: self.stick[name] for name in place}
-        begun = self._timer is None
         self.stick = {**place, "held": True}
-        if begun:
+        if self._timer is None:
             self.words = f"Driving on {self.topic}."
             self._timer = self.backend.node.create_timer(PERIOD, self._drive)
-        if begun or (changed and not any(place.values())):
             self._publish()
-        if begun:
             let_time_go_on(self.backend)
+        elif changed and not any(place.values()):
+            self._publish()
 
     def do_release(self) -> None:
         """The stick was let go: stop."""
@@ -139,15 +138,6 @@ class Teleop(LiveWidget):
         most = f"at most {number(self.limits['forward'])} m/s and {number(self.limits['turn'])} rad/s"
         last = "nothing sent yet"
         if self.sent["count"]:
-            last = f"last sent {in_words(self.sent['linear'], self.sent['angular'])}"
+            last = f"last sent {number(self.sent['linear'])} m/s and {number(self.sent['angular'])} rad/s"
         keys = f"Keys go to {self.program}. " if self.program else ""
         return f"Teleop on {self.topic}, {most}: {last}. {keys}{self._publisher.why_unheard()}".strip()
-
-
-def in_words(linear: float, angular: float) -> str:
-    """A velocity: "1.00 m/s forward and 0.50 rad/s to the left"."""
-    if not linear and not angular:
-        return "zeros (stop)"
-    along = f"{number(abs(linear))} m/s {'forward' if linear > 0 else 'backward'}" if linear else ""
-    around = f"{number(abs(angular))} rad/s to the {'left' if angular > 0 else 'right'}" if angular else ""
-    return " and ".join(filter(None, (along, around)))
