@@ -169,7 +169,7 @@ def test_the_widget_records_what_is_clicked(lesson: Lesson) -> None:
     assert widget.guess == [8.0, 3.0]
     assert widget.words.startswith("Recorded: (8.00, 3.00) m.")
     widget._order(widget, {"do": "guess", "view": "v", "value": "here"}, [])
-    assert "A point is two numbers" in widget.words
+    assert "A point is two finite numbers" in widget.words
     start()  # a fresh world does not take the guess away
     widget._order(widget, {"do": "guess", "view": "v", "value": [1, 2]}, [])
     assert lesson.outcome("end", (1, 2)).verdict == "0.00 m off."

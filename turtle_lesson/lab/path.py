@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -293,19 +294,16 @@ def read_goals(given: Any) -> list[Goal]:
     """Return the goals that were given as None, (x, y), (x, y, theta), or a list of these."""
     if given is None:
         return []
-    wrong = ValueError(
-        "a goal is (x, y) in metres, or (x, y, theta) with the heading in radians, or a list of these; "
-        f"got {given!r}; try goal=(8.0, 8.0, 1.57)"
-    )
-    try:
+    with suppress(TypeError, ValueError):
         items = list(given)
         one = items and all(isinstance(item, Real) for item in items)
         goals = [Goal(*map(float, item)) for item in ([items] if one else items)]
-    except (TypeError, ValueError):
-        raise wrong from None
-    if not all(math.isfinite(value) for goal in goals for value in goal if value is not None):
-        raise wrong
-    return goals
+        if all(math.isfinite(value) for goal in goals for value in goal if value is not None):
+            return goals
+    raise ValueError(
+        "a goal is (x, y) in metres, or (x, y, theta) with the heading in radians, or a list of these; "
+        f"got {given!r}; try goal=(8.0, 8.0, 1.57)"
+    )
 
 
 def _draw_goal(axes: Axes, goal: Goal) -> None:

@@ -9,6 +9,7 @@ import html
 import math
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any
@@ -92,13 +93,11 @@ class Point:
         """Two finite numbers, the first two of a longer tuple, or what has x and y."""
         if hasattr(value, "x") and hasattr(value, "y"):
             value = (value.x, value.y)
-        try:
+        with suppress(TypeError, ValueError):
             x, y = (float(each) for each in tuple(value)[:2])
-        except (TypeError, ValueError):
-            raise ValueError(f"A point is two numbers in metres, such as (8, 3), got {value!r}.") from None
-        if not (math.isfinite(x) and math.isfinite(y)):
-            raise ValueError(f"A point is two finite numbers in metres, got {value!r}.")
-        return x, y
+            if math.isfinite(x) and math.isfinite(y):
+                return x, y
+        raise ValueError(f"A point is two finite numbers in metres, such as (8, 3), got {value!r}.")
 
     def shown(self, value: Any) -> str:
         """Both, with their unit."""

@@ -232,10 +232,8 @@ class GoalPad(LiveWidget):
         steps = [0.5 + 0.5 * step for step in range(21)]
         middle = (5.5, 5.5)
         places = sorted(product(steps, steps), key=lambda place: math.dist(place, middle))
-        for place in places:
-            if all(math.dist(place, (x, y)) > reach + ROOM for x, y, reach in taken):
-                return place
-        return middle
+        free = (place for place in places if all(math.dist(place, (x, y)) > reach + ROOM for x, y, reach in taken))
+        return next(free, middle)
 
     # -- goals -------------------------------------------------------------------------------------------------------
 

@@ -148,12 +148,10 @@ def _flags(goals: list[Goal], begin: float, end: float) -> tuple[list[bytes], di
     flags, appear = [], {}
     for index, goal in enumerate(goals):
         gone = math.inf if goal.ended is None else goal.ended
-        if goal.sent >= end or gone <= begin:
-            continue
         path = f"lab/goals/{index}"
         flags.append(show(f"{path}/mark", goal_mark(goal.x, goal.y, goal.theta)))
         flags.append(show(f"{path}/flag", goal_flag(goal.x, goal.y, reached=False)))
-        keys = [(0.0, goal.sent <= begin), (goal.sent - begin, True), (gone - begin, False)]
+        keys = [(0.0, goal.sent <= begin < gone), (goal.sent - begin, True), (gone - begin, False)]
         kept = [(time, seen) for time, seen in keys if time == 0 or 0 < time < end - begin]
         appear[path] = [_track("visible", "bool", *zip(*kept, strict=True))]
     return flags, appear
