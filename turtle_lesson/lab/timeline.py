@@ -27,9 +27,6 @@ WIDTH, LEFT, RIGHT = 6.4, 1.95, 0.25
 
 LANE, TOP, BOTTOM = 0.40, 0.70, 0.78
 
-MOST = 24
-"""A picture with more lanes than that cannot be read."""
-
 HOLDS: dict[str, Any] = {"facecolor": drawing.GREEN, "edgecolor": drawing.DARK_GREEN}
 AWAITS: dict[str, Any] = {"facecolor": drawing.ORANGE + "40", "edgecolor": drawing.DARK_ORANGE, "hatch": "////"}
 """The bars of a callback that holds its thread, and of one that leaves it to others."""
@@ -49,8 +46,6 @@ def plot_timeline(
     if window.begin == window.end:
         return Picture("No robot time has passed yet, so a timeline would have no width. Try lesson.run(1.0).")
     text = f"Timeline from {window.seconds}. {' '.join(lane.text for lane in lanes)}"
-    if len(lanes) > MOST:
-        return Picture(f"{text} These are {len(lanes)} rows, too many for a picture: name some, at most {MOST}.")
     with drawing.applied():
         return Picture(text, _draw(lanes, window))
 

@@ -138,7 +138,7 @@ def draw_scene(recording: Recording, goal: Goal | None) -> Picture:
         _draw(axes, scene_mesh.ribbon([*trail.old, trail.tip]), layer=3, lit=False)
         _draw_things(axes, recording, goal, pose)
         axes.autoscale_view(tight=True)
-        drawing.heading(figure, "The world in three dimensions", brief(recording, goal, beams=False).rstrip("."))
+        drawing.heading(figure, "The world in three dimensions", brief(recording, goal).rstrip("."))
     return Picture(text, figure)
 
 
@@ -190,8 +190,8 @@ def _seen(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return across, -outward * math.sin(UP) + z * math.cos(UP), outward * math.cos(UP) + z * math.sin(UP)
 
 
-def brief(recorder: Recording, goal: Goal | None, beams: bool = True) -> str:
-    """A scene in a line: turtle, obstacles, laser and goal."""
+def brief(recorder: Recording, goal: Goal | None) -> str:
+    """A scene in a line: turtle, obstacles and goal."""
     pose = recorder.pose()
     if pose is None:
         return "No pose heard yet."
@@ -199,9 +199,6 @@ def brief(recorder: Recording, goal: Goal | None, beams: bool = True) -> str:
     facts = [f"Turtle at {point(x, y)} m facing {number(math.degrees(theta), 1)}°"]
     if recorder.obstacles:
         facts.append(count(len(recorder.obstacles), "obstacle"))
-    if beams and recorder.last_scan is not None:
-        scan = read_beams(recorder.last_scan)
-        facts.append(f"{int(scan.sees.sum())} of {count(len(scan), 'beam')} see something")
     if goal is not None:
         facts.append(f"goal {number(math.hypot(goal.x - x, goal.y - y))} m away")
     return f"{'; '.join(facts)}."
