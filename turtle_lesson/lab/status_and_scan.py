@@ -72,8 +72,9 @@ def _draw_status(seconds: np.ndarray, rows: np.ndarray) -> Figure:
     panels[3].set(ylabel="battery\nin %", ylim=(0, 108), yticks=[0, 50, 100], xlabel="robot time in seconds")
     panels[3].fill_between(seconds, 0, rows["battery"], color=drawing.GREEN + "30", linewidth=0)
     panels[3].plot(seconds, rows["battery"], color=drawing.GREEN, linewidth=1.8)
-    begin, end = float(seconds[0]), float(seconds[-1])  # the axis is a little wider than the data, and begins at 0 if
-    spare = 0.01 * (end - begin) or 0.5  # they start close to it
+    # the axis is a little wider than the data, and begins at 0 if they start close to it
+    begin, end = float(seconds[0]), float(seconds[-1])
+    spare = 0.01 * (end - begin) or 0.5
     panels[3].set_xlim(0.0 if 0 <= begin < 5 * spare else begin - spare, end + spare)
     figure.align_ylabels(panels)
     return figure

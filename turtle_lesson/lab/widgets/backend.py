@@ -280,7 +280,6 @@ class LazyClient:
                 self._future = future = self._client.call_async(request)
                 future.add_done_callback(self._done)
             elif not may_come:
-                self._held = None
                 self._end(f"Not asked: {self.why_unheard()}")
         elif self._future is not None and now > self._asked + LONGEST_WAIT:
             self._end(f"No answer from {self._name} within {LONGEST_WAIT:g} s of robot time.")

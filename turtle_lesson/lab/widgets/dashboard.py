@@ -18,7 +18,6 @@ from ...ros.idl.names import is_hidden
 from .. import drawing
 from ..drawing import SHARPNESS, Picture
 from ..graph import EVERYWHERE, node_names, servers
-from ..path import plot_path
 from ..recorder import Channel
 from ..recording import COMMAND_TOPIC, NANOSECONDS, OBSTACLE_TOPIC, POSE_TOPIC, SCAN_TOPIC, STATUS_TOPIC, Table
 from ..status_and_scan import Beams, plot_status, read_beams
@@ -139,10 +138,8 @@ class Dashboard(GoalPad):
         return f"Dashboard at {number(self.backend.now)} s of robot time: {'; '.join(facts)}."
 
     def _picture(self) -> Picture | None:
-        kept = [(goal.x, goal.y, goal.theta) for goal in self.desk.goals if goal.was_taken]
-        recorder = self.backend.recorder
-        cards = [plot_path(recorder, goal=kept[-1] if kept else None), plot_status(recorder)]
-        drawn = [card.pixels() for card in cards if card.figure is not None]
+        cards = super()._picture(), plot_status(self.backend.recorder)
+        drawn = [card.pixels() for card in cards if card is not None and card.figure is not None]
         return Picture(self.text(), _side_by_side(drawn) if drawn else None)
 
     def _place(self) -> str:

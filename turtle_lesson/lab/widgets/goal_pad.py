@@ -151,8 +151,7 @@ class GoalPad(LiveWidget):
         rate = clock.rate if math.isfinite(clock.rate) else FASTEST
         state = {"turns": True, "playing": clock.playing, "rate": rate}
         changed = state != self.clock
-        if changed:
-            self.clock = state
+        self.clock = state
         if self.due("wall", 5) or changed:
             self.wall = {"seconds": round(clock.wall_seconds, 1), "speed": float(f"{clock.speed:.2g}")}
 

@@ -103,7 +103,7 @@ def steps_to_number(topic: str, type_name: str, rest: str) -> list[Step]:
 def _below(kind: Kind) -> dict[str, Kind]:
     """What a step leads to: from an array to its elements, from a message to its fields, from a number nowhere."""
     if kind.array:
-        return {"[0]": kind.element}
+        return {"[0]": Kind(kind.base)}
     return kinds_of(find_class(kind.base)) if kind.is_message else {}
 
 

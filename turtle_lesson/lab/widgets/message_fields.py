@@ -47,11 +47,6 @@ class Kind:
         """Whether it is one number, or true and false, that can be drawn as one."""
         return not self.array and self.base in WHOLE | FLOATS | {"boolean"}
 
-    @property
-    def element(self) -> Kind:
-        """The kind of one element."""
-        return Kind(self.base)
-
     def __str__(self) -> str:
         """As a .msg file writes it: "float64[<=3]"."""
         return NAMES.get(self.base, self.base) + self.array
