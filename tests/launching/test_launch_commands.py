@@ -215,3 +215,16 @@ def test_a_launch_by_hand_in_a_cell(world: World, capsys: pytest.CaptureFixture[
     failing.include_launch_description(LaunchDescription([LogInfo(msg=LaunchConfiguration("nope"))]))
     assert failing.run() == 1
     assert "launch configuration 'nope' does not exist" in capsys.readouterr().out
+
+
+def test_a_launch_by_hand_goes_on_with_what_the_end_of_a_program_starts(
+    world: World, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from launch import LaunchDescription, LaunchService
+    from launch.actions import ExecuteProcess
+
+    after = ExecuteProcess(cmd=["echo", "after"], output="screen")
+    service = LaunchService()
+    service.include_launch_description(LaunchDescription([ExecuteProcess(cmd=["sleep", "1"], on_exit=[after])]))
+    assert service.run() == 0
+    assert "[echo-2] after" in capsys.readouterr().out.splitlines()

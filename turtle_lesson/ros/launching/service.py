@@ -73,7 +73,7 @@ class LaunchService:
             self._ending.append(process)
             return
         process.report_end()
-        self.world.sim.call_later(0, self.carry_on, process.after_end)  # leave the dying process first
+        self.call_later(0, process.after_end)  # leave the dying process first
 
     def _end_processes(self, *, said: bool) -> None:
         """Interrupt all processes, and see to it that they end. How they ended is said after all their output."""
