@@ -70,6 +70,7 @@ def test_what_commands_print(tmp_path: Path, capsys: pytest.CaptureFixture[str])
             "LogInfo(msg=Command('cat nope')),",
             "executed command failed. Command: cat nope\nCaptured stderr output: cat: nope: No such file",
         ),
+        ("LogInfo(msg=Command('xacro ')),", "executed command failed. Command: xacro \nCaptured stderr output: cat: "),
     ]:
         with pytest.raises(LaunchError) as caught:
             launch(tmp_path, action)

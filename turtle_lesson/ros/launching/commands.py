@@ -162,7 +162,7 @@ def _read(name: str) -> str:
 
 def _xacro(words: Sequence[str]) -> str:
     """What xacro makes of a robot description. One without macros stays as it is; for others the package xacro is needed."""
-    text = "".join(_read(word) for word in words if not word.startswith("-") and ":=" not in word)
+    text = _read(" ".join(word for word in words if not word.startswith("-") and ":=" not in word))
     if not re.search(r"<xacro:|\$\{|\$\(", text):
         return text
     try:
