@@ -274,6 +274,11 @@ def test_mistakes_that_show_when_the_description_is_walked_through(tmp_path: Pat
     assert action.startswith("None") or (error.file, error.line) == (str(tmp_path / "test.launch.py"), 15)
 
 
+def test_a_wrong_parameter_is_named(tmp_path: Path) -> None:
+    error = failure(write_launch_file(tmp_path, node(parameters="[{'p': TextSubstitution(text='null')}]")))
+    assert error.hint.startswith("This is parameter 'p'. The text is 'null'; ParameterValue(")
+
+
 @pytest.mark.parametrize(
     ("action", "said"),
     [

@@ -104,8 +104,8 @@ def as_launch_error(error: BaseException, written_at: Place | None = None) -> La
 
 
 def _hint(error: BaseException) -> str:
-    if own := getattr(error, "hint", "") or " ".join(getattr(error, "__notes__", [])):
-        return str(own)
+    if own := " ".join(filter(None, [*getattr(error, "__notes__", []), getattr(error, "hint", "")])):
+        return own
     if isinstance(error, FileNotFoundError | IsADirectoryError) and isinstance(error.filename, str):
         return _missing_file(Path(error.filename))
     if isinstance(error, ModuleNotFoundError) and (why := index.why_not_here(str(error.name).partition(".")[0])):

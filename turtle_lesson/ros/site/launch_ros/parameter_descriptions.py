@@ -38,7 +38,7 @@ def parameters_in(context: LaunchContext, given: Mapping[Any, Any]) -> Iterator[
         try:
             yield name, value_of(context, value)
         except TypeError as error:
-            explained(error, f"This is parameter '{name}'.")
+            error.add_note(f"This is parameter '{name}'.")
             raise
 
 
