@@ -354,6 +354,11 @@ NODE = '<node pkg="robot_controller" exec="navigator"'
             "",
         ),
         (f"{NODE}><param name='x'/></node>", "either a value attribute or nested params are needed", ""),
+        (
+            f"{NODE}><param name='x'><param from='y'/></param></node>",
+            "either a value attribute or nested params are needed",
+            "",
+        ),
         (f"{NODE}><param value='x'/></node>", "param Entity should have either name or from attribute", ""),
         (
             f"{NODE}><param name='x' from='y'/></node>",

@@ -172,7 +172,7 @@ def _parameter(param: Entity) -> ParameterFile | dict[Any, Any]:
     kind = None if type_name is None else TYPES[type_name]
     value: Any = attribute("value", kind, optional=True)(param)
     nested = tags("param", _parameter)(param)
-    if (value is None) == (nested is None):
+    if (value is None) == (nested is None) or not all(isinstance(each, dict) for each in nested or ()):
         raise ValueError("either a value attribute or nested params are needed")
     if nested:
         value = {inner: inner_value for each in nested for inner, inner_value in each.items()}
