@@ -400,6 +400,12 @@ def test_a_mistake_in_xml_is_named_with_its_line(tmp_path: Path, line: str, said
             "Write each item as - node: (or another action), and indent what belongs to it deeper.",
         ),
         (
+            "- group:\n- log: {message: x}\n",
+            "Expected entity `group` to have children entities.",
+            2,
+            "Write them as a list below it, each indented and with a hyphen: - node:",
+        ),
+        (
             "- arg:\n    name: x\n    default: 5\n",
             "Attribute 'default' of Entity 'arg' expected to be of type '<class 'str'>', got '<class 'int'>'",
             2,

@@ -65,9 +65,12 @@ class Entity:
         below = self._inside.in_xml
         if below is None:
             self._asked.add("children")
-            below = self._inside.get("children", [])
+            below = self._inside.get("children")
+        if not isinstance(below, list):
+            what = f"Expected entity `{self.type_name}` to have children entities."
+            raise explained(ValueError(what), "Write them as a list below it, each indented and with a hyphen: - node:")
         found = []
-        for item in below if isinstance(below, list) else [below]:
+        for item in below:
             if not isinstance(item, Mapping) or len(item) != 1:
                 error = RuntimeError("Subentity must be a dictionary with only one key, which is the entity type")
                 hint = "Write each item as - node: (or another action), and indent what belongs to it deeper."
