@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING, Any
 from .errors import LaunchError, find_launch_file
 
 if TYPE_CHECKING:
-    from .service import LaunchHandle, launch_arguments, launch_description, launch_file, show_arguments
+    from .service import LaunchHandle, launch_description, launch_file, show_arguments
 
 __all__ = [
     "LaunchError",
     "LaunchHandle",
     "find_launch_file",
-    "launch_arguments",
     "launch_description",
     "launch_file",
     "show_arguments",

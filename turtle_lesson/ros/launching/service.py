@@ -18,7 +18,7 @@ from typing import Any
 from launch import Action, Event, LaunchContext, LaunchDescription, LaunchDescriptionEntity, LaunchDescriptionSource
 from launch._context import as_entities
 from launch._entities import described
-from launch.actions import DeclareLaunchArgument, EmitEvent, ExecuteProcess, IncludeLaunchDescription
+from launch.actions import EmitEvent, ExecuteProcess, IncludeLaunchDescription
 from launch.actions._processes import OUTPUT_OVERRIDE
 from launch.events import IncludeLaunchDescription as Included
 from launch.events import Shutdown
@@ -50,7 +50,6 @@ class LaunchService:
         self._waiting: list[ExecuteProcess] = []
         self._ending: list[RunningProcess] | None = None
         self._timers = 0
-        self._settling = False
         self._helper: RosHelper | None = None
         self._warnings: set[str] = set()
         self._left_out: dict[LaunchDescriptionEntity, str] = {}
@@ -111,9 +110,8 @@ class LaunchService:
         return self._helper
 
     def settle_soon(self) -> None:
-        """Have waiting starts and events handled at this instant, unless that is being done already."""
-        if not self._settling:
-            self.world.sim.call_later(0, self.carry_on, lambda: None)
+        """Have waiting starts and events handled at this instant."""
+        self.world.sim.call_later(0, self.carry_on, lambda: None)
 
     def warn_once(self, text: str) -> None:
         """Print a warning of launch's own, unless this launch has printed it before."""
@@ -129,15 +127,20 @@ class LaunchService:
         """Print a line of launch's own, such as `[INFO] [launch]: …`."""
         self.line(f"[{level}] [{name}]: {text}")
 
-    def begin(self, entity: LaunchDescriptionEntity) -> None:
-        """Walk through a description and start its processes.
+    def begin(self, source: LaunchDescriptionSource, arguments: Mapping[str, object]) -> None:
+        """Walk through a description and start its processes; warn of arguments that nothing takes.
 
         Raises LaunchError if something is wrong with it. If it is found while walking, nothing was started.
         """
+        given = {  # as on a command line, where True is `true`
+            name: str(value).lower() if isinstance(value, bool) else str(value) for name, value in arguments.items()
+        }
+        include = IncludeLaunchDescription(source, launch_arguments=given.items())
+        include._written_at = None  # it stands in no launch file
         self.say("INFO", "launch", "Default logging verbosity is set to INFO")
         with self._inside():
             try:
-                self.visit(entity)
+                self.visit(include)
                 # what waits for the end, say, of a program that is left out
                 for handler in self.context._event_handlers:
                     target: Any = getattr(handler, "_target", None)
@@ -146,9 +149,15 @@ class LaunchService:
                         what = f"{type(handler).__name__} of {self._left_out[target]}"
                         self.warn_once(f"{what} is left out, too, with what it starts")
                 self._settle()
-            except LaunchError:
+            except LaunchError as error:
                 self.shut_down("an error in the launch file")
-                raise
+                raise error from learners_cause(error.__cause__)
+        known = [argument.name for argument in source.get_launch_description(self.context).get_launch_arguments()]
+        for name in given:  # the real tool says nothing
+            if name not in known and name not in self.context._configurations_read:
+                takes = f"It takes: {', '.join(known)}." if known else "It takes no arguments."
+                what = f"nothing in this launch file takes the argument '{name}'"
+                self.say("WARNING", "launch", f"{what}. {did_you_mean(name, known) or takes}")
 
     def carry_on(self, function: Callable[[], None]) -> None:
         """Do something that came later; an error in it ends the launch and is printed, as on a robot."""
@@ -177,12 +186,10 @@ class LaunchService:
     @contextmanager
     def _inside(self) -> Iterator[None]:
         """While something of this launch is done: its packages are seen, its prints go to the cell."""
-        self._settling = True
         try:
             with seeing(LaunchedPackages(self.world.packages)), redirect_stdout(self.world.sim.cell_stdout):
                 yield
         finally:
-            self._settling = False
             if self._helper is not None and not self.running:
                 self._helper.close()
 
@@ -286,49 +293,28 @@ def launch_file(
     if show_all_output:
         service.context.environment[OUTPUT_OVERRIDE] = "both"
     source = AnyLaunchDescriptionSource(str(Path(path).resolve()))
-    return LaunchHandle(_begun(service, source, arguments or {}), Path(path).name)
+    service.begin(source, arguments or {})
+    return LaunchHandle(service, Path(path).name)
 
 
 def launch_description(world: World, description: LaunchDescription) -> LaunchHandle:
     """Carry out a description that was made in a notebook cell. As `launch_file` otherwise."""
-    return LaunchHandle(_begun(LaunchService(world), LaunchDescriptionSource(description), {}), "a description")
-
-
-def launch_arguments(world: World, path: Path | str) -> list[DeclareLaunchArgument]:
-    """The arguments that a launch file takes. Raises LaunchError if the file cannot be loaded."""
-    source = AnyLaunchDescriptionSource(str(path))
-    try:
-        with seeing(LaunchedPackages(world.packages)):
-            return source._get_launch_description(str(path)).get_launch_arguments()
-    except Exception as error:
-        raise as_launch_error(error) from learners_cause(error)
+    service = LaunchService(world)
+    service.begin(LaunchDescriptionSource(description), {})
+    return LaunchHandle(service, "a description")
 
 
 def show_arguments(world: World, path: Path | str) -> str:
     """What `ros2 launch … --show-args` prints. Raises LaunchError if the file cannot be loaded."""
+    source = AnyLaunchDescriptionSource(str(path))
+    try:
+        with seeing(LaunchedPackages(world.packages)):
+            arguments = source._get_launch_description(str(path)).get_launch_arguments()
+    except Exception as error:
+        raise as_launch_error(error) from learners_cause(error)
     parts = ["Arguments (pass arguments as '<name>:=<value>'):"]
-    for argument in launch_arguments(world, path):
+    for argument in arguments:
         part = f"    '{argument.name}':\n{textwrap.indent(str(argument.description), '        ')}"
         default = argument.default_value
         parts.append(part + ("" if default is None else f"\n        (default: {described(default)})"))
     return "\n\n".join(parts if len(parts) > 1 else [*parts, "  No arguments."])
-
-
-def _begun(service: LaunchService, source: LaunchDescriptionSource, arguments: Mapping[str, object]) -> LaunchService:
-    given = {  # as on a command line, where True is `true`
-        argument: str(value).lower() if isinstance(value, bool) else str(value) for argument, value in arguments.items()
-    }
-    include = IncludeLaunchDescription(source, launch_arguments=given.items())
-    include._written_at = None  # it stands in no launch file
-    try:
-        service.begin(include)
-    except LaunchError as error:
-        raise error from learners_cause(error.__cause__)
-    description = source.get_launch_description(service.context)
-    known = [argument.name for argument in description.get_launch_arguments()]
-    for argument in given:  # the real tool says nothing
-        if argument not in known and argument not in service.context._configurations_read:
-            takes = f"It takes: {', '.join(known)}." if known else "It takes no arguments."
-            what = f"nothing in this launch file takes the argument '{argument}'"
-            service.say("WARNING", "launch", f"{what}. {did_you_mean(argument, known) or takes}")
-    return service
