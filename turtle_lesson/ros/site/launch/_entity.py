@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any, get_args
 
 from turtle_lesson.ros.idl.names import did_you_mean
@@ -45,19 +44,15 @@ class Entity:
     """
 
     def __init__(self, type_name: str, inside: Any, place: Place) -> None:
+        if isinstance(inside, list | None):
+            inside = Mapping(place[1], {} if inside is None else {"children": inside})
+        if not isinstance(inside, Mapping):
+            error = TypeError(f"Expected a dict or list, got {type(inside)}")
+            raise explained(error, f"Write the attributes of {type_name} below it, each on a line of its own.", place)
         self.type_name = type_name
         self.place = place
-        self._written = inside
+        self._inside = inside
         self._asked: set[str] = set()
-
-    @cached_property
-    def _inside(self) -> Mapping:
-        if isinstance(self._written, Mapping):
-            return self._written
-        if isinstance(self._written, list | None):
-            return Mapping(self.place[1], {} if self._written is None else {"children": self._written})
-        error = TypeError(f"Expected a dict or list, got {type(self._written)}")
-        raise explained(error, f"Write the attributes of {self.type_name} below it, each on a line of its own.")
 
     @property
     def children(self) -> list[Entity]:
