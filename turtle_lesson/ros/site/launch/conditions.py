@@ -38,22 +38,18 @@ def evaluate_condition_expression(context: LaunchContext, expression: Iterable[S
 
 
 class IfCondition(Condition):
-    """Holds for `true` and `1`."""
+    """Holds for `true` and `1`. `evaluate` raises InvalidConditionExpressionError if the text is neither true nor false."""
 
     def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
-        super().__init__()
-        self.__expression = normalize_to_list_of_substitutions(predicate_expression)
-
-    def evaluate(self, context: LaunchContext) -> bool:
-        """Whether it holds now. Raises InvalidConditionExpressionError if the text is neither true nor false."""
-        return evaluate_condition_expression(context, self.__expression)
+        expression = normalize_to_list_of_substitutions(predicate_expression)
+        super().__init__(predicate=lambda context: evaluate_condition_expression(context, expression))
 
 
 class UnlessCondition(IfCondition):
     """Holds for `false` and `0`."""
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether it holds now. Raises InvalidConditionExpressionError if the text is neither true nor false."""
+        """Whether it holds now."""
         return not super().evaluate(context)
 
 
