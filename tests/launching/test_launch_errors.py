@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from launch_world import FakeWorld, launch, node, write, write_launch_file
+from launch_world import HEAD, FakeWorld, launch, node, write, write_launch_file
 
 from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.launching import LaunchError, find_launch_file, launch_file
@@ -106,6 +106,14 @@ def test_a_missing_required_argument(tmp_path: Path) -> None:
     )
     assert error.hint == "Give it a value: robot:=… (in a notebook lesson.launch(…, robot='…'))."
     assert failure(path, robt="bob").reason.endswith("given: [robt]")
+
+
+def test_what_is_included_on_a_condition_needs_its_arguments_only_then(tmp_path: Path) -> None:
+    inner = write(tmp_path, HEAD + "        DeclareLaunchArgument('robot'),\n    ])\n", "inner.launch.py")
+    condition = "condition=IfCondition(LaunchConfiguration('go', default='false'))"
+    outer = write_launch_file(tmp_path, f"IncludeLaunchDescription('{inner}', {condition}),")
+    assert launch_file(FakeWorld(), outer).names == []
+    assert "missing required argument 'robot'" in failure(outer, go=True).reason
 
 
 def test_a_bad_node_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -222,8 +222,9 @@ def _declared(
     from .actions import DeclareLaunchArgument, IncludeLaunchDescription
 
     for entity in entities:
+        only_if = conditional or (isinstance(entity, Action) and entity.condition is not None)
         if isinstance(entity, DeclareLaunchArgument):
-            entity._conditionally_included = conditional or entity.condition is not None
+            entity._conditionally_included = only_if
             yield entity, includes
         inner = includes
         below = entity.describe_sub_entities()
@@ -232,5 +233,5 @@ def _declared(
             if location in [outer.launch_description_source.location for outer in includes]:
                 continue  # a file that includes itself takes no other arguments within itself
             inner = [*includes, entity]
-        yield from _declared(below, conditional, inner)
+        yield from _declared(below, only_if, inner)
         yield from _declared(entity.describe_conditional_sub_entities(), True, inner)

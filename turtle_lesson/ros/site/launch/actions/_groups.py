@@ -48,11 +48,7 @@ class GroupAction(Action):
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """What it gives."""
-        return [*self.__actions] if self.condition is None else []
-
-    def describe_conditional_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """What it gives if its condition holds."""
-        return [] if self.condition is None else [*self.__actions]
+        return [*self.__actions]
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Give its actions, in a scope of their own."""
