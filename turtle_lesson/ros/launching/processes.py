@@ -21,7 +21,6 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 from ..ament.package import PythonProgram
-from ..runtime.world import World
 from ..sim.process import Process
 
 if TYPE_CHECKING:
@@ -167,13 +166,12 @@ LOOKS_AGAIN = 0.01
 class RosHelper:
     """Listens to managed nodes and asks them for transitions; what it hears is told outside of its process."""
 
-    def __init__(self, world: World, carry_on: Callable[[Callable[[], None]], None]) -> None:
-        self._world = world
-        self._carry_on = carry_on
+    def __init__(self, service: LaunchService) -> None:
+        self._service = service
         self._orders: list[Callable[[Node], object]] = []
         self._wake: Callable[[], None] = lambda: None
         self._clients: dict[str, Client] = {}
-        self._process: Process = world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
+        self._process = service.world.spawn(self._main, name="launch_ros", argv=["launch_ros"])
 
     def _main(self) -> None:
         rclpy.init(args=[])
@@ -193,20 +191,17 @@ class RosHelper:
         self._orders.append(order)
         self._wake()
 
-    def _tell(self, function: Callable[[], None]) -> None:
-        """Call a function of the launch, outside of this process and at this instant."""
-        self._world.sim.call_later(0, self._carry_on, function)
-
     def watch(self, node_name: str, heard: Callable[[TransitionEvent], None]) -> None:
         """Have a function called with each TransitionEvent of a node."""
 
         def hear(event: TransitionEvent) -> None:
-            self._tell(lambda: heard(event))
+            self._service.call_later(0, lambda: heard(event))
 
         self._order(lambda node: node.create_subscription(TransitionEvent, f"{node_name}/transition_event", hear, 10))
 
     def change_state(self, node_name: str, transition_id: int, answered: Callable[[bool], None]) -> None:
         """Ask a node for a transition, as soon as it has the service; the function is called with the answer."""
+        later = self._service.call_later
 
         def call(node: Node) -> None:
             if node_name not in self._clients:
@@ -219,7 +214,7 @@ class RosHelper:
                 if client.service_is_ready():
                     node.destroy_timer(timer)
                     future = client.call_async(request)
-                    future.add_done_callback(lambda done: self._tell(lambda: answered(done.result().success)))
+                    future.add_done_callback(lambda done: later(0, lambda: answered(done.result().success)))
 
             timer = node.create_timer(LOOKS_AGAIN, try_it)  # waits without holding up what other nodes tell
             try_it()

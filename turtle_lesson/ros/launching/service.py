@@ -106,7 +106,7 @@ class LaunchService:
     def ros_helper(self) -> RosHelper:
         """The node of launch's own; it is made when it is first asked for."""
         if self._helper is None:
-            self._helper = RosHelper(self.world, self.carry_on)
+            self._helper = RosHelper(self)
         return self._helper
 
     def settle_soon(self) -> None:
@@ -246,14 +246,13 @@ class LaunchHandle:
         service.world.at_close.append(self._let_go)
 
     def _let_go(self) -> None:
-        """Keep the names, and nothing of the world that is closed: Jupyter's `Out` may keep this handle for long."""
-        left = [SimpleNamespace(name=name, alive=False, process=None) for name in self.names]
-        self._service = SimpleNamespace(processes=left, running=False)
+        """Keep nothing of the world that is closed: Jupyter's `Out` may keep this handle for long."""
+        self._service = SimpleNamespace(processes=[], running=False)
 
     @property
     def processes(self) -> list[Process]:
         """Its processes in the order of their start, dead ones included."""
-        return [entry.process for entry in self._service.processes if entry.process is not None]
+        return [entry.process for entry in self._service.processes]
 
     @property
     def names(self) -> list[str]:
