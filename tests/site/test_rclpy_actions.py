@@ -829,7 +829,7 @@ def test_wrong_arguments(make: Any, kind: type[Exception], text: str) -> None:
 
 def test_wrong_arguments_are_explained() -> None:
     error = refused(lambda node: ActionClient(node, Fibonacci.Goal, "x"), RuntimeError)
-    assert error.__notes__ == ["The action's type is Fibonacci; Fibonacci.Goal is only a part of it."]
+    assert error.__notes__ == ["Fibonacci.Goal is only a part of Fibonacci."]
     error = refused(lambda node: ActionServer(node, "x", Fibonacci, count_up), AttributeError)
     assert "The order is ActionServer(node, action_type, action_name, execute_callback)." in error.__notes__[0]
 

@@ -288,7 +288,7 @@ def test_a_service_is_no_message_and_a_message_no_service(node: Node) -> None:
     assert message_of(RuntimeError, lambda: node.create_client(String, "x")) == expected
     with pytest.raises(RuntimeError) as caught:
         node.create_service(AddTwoInts.Request, "x", callback)
-    assert caught.value.__notes__ == ["The service's type is AddTwoInts; AddTwoInts.Request is only a part of it."]
+    assert caught.value.__notes__ == ["AddTwoInts.Request is only a part of AddTwoInts."]
 
 
 def test_a_message_instead_of_its_class_is_accepted_as_the_real_one_does(node: Node) -> None:

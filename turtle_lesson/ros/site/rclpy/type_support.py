@@ -39,9 +39,9 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
 
 
 def wrong_kind(what: str, given: Any, others: str) -> RuntimeError:
-    """The error for an interface of another kind, with a note if it is a part of one of the right kind, such as its request."""
+    """The error for an interface of another kind, with a note if it is only a part of one, such as a request."""
     error = RuntimeError(f"The {what} type provided is not valid ({given}), this might be {others}")
     name = getattr(given, "__name__", "")
     if (whole := without_part(name)) != name:
-        error.add_note(f"The {what}'s type is {whole}; {name.replace('_', '.')} is only a part of it.")
+        error.add_note(f"{name.replace('_', '.')} is only a part of {whole}.")
     return error
