@@ -22,7 +22,7 @@ def test_a_program_is_started_by_its_path_too(terminal: Terminal) -> None:
     printed = terminal.say("install/first_steps/lib/first_steps/talk_member_function &", seconds=0.6)
     assert having(printed, "Hello") == ['0.5 talk_member_function: Publishing: "Hello: 0"']
     missing = terminal.say("install/first_steps/lib/first_steps/talk")
-    assert "command not found" in missing[0] and terminal.codes == [127]
+    assert "talk: No such file or directory" in missing[0] and terminal.codes == [127]
 
 
 @pytest.mark.parametrize("listener", ["hear_old_school", "hear_lambda", "hear_member_function"])

@@ -86,7 +86,7 @@ class Shell:
             if isinstance(mistake, OSError) and mistake.strerror:
                 text = f"{mistake.filename}: {mistake.strerror}" if mistake.filename else mistake.strerror
             print(f"{cut(words[0] if words else 'bash', 40)}: {cut(text, 300)}", file=error)
-            return 1
+            return NOT_FOUND if isinstance(mistake, FileNotFoundError) and not mistake.filename else 1  # no ./FILE
         except KeyboardInterrupt:
             self.exit_code = INTERRUPTED if words[0] == "ros2" else STOPPED
             stopped = f"{cut(' '.join(words), 100)} was stopped, and no command after it was run"
