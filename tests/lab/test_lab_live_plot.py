@@ -86,6 +86,7 @@ def test_only_the_last_seconds_are_drawn(lesson: Lesson) -> None:
         ("/rosout/msg", "is not a number but a string"),
         ("", "such as"),
         (7, "such as"),
+        (["/turtle1/pose/x", "/turtle1/pose/y"], "got ['/turtle1/pose/x', '/turtle1/pose/y']"),
     ],
 )
 def test_mistakes_are_explained(lesson: Lesson, asked: Any, said: str) -> None:

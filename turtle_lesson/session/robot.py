@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Hashable
+from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -84,7 +84,7 @@ class Robot(Views):
         self._check_connected()
         return super().plot_graph()
 
-    def _widget(self, kind: Callable[..., Widget], *arguments: Hashable) -> Widget:
+    def _widget(self, kind: Callable[..., Widget], *arguments: object) -> Widget:
         self._check_connected()
         return super()._widget(kind, *arguments)
 

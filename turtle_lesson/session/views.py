@@ -12,7 +12,7 @@ import dataclasses
 import io
 import re
 import sys
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -59,17 +59,18 @@ class Views:
     def _recording(self) -> Recorder:
         return self._backend.recorder
 
-    def _widget(self, kind: Callable[..., Widget], *arguments: Hashable) -> Widget:
+    def _widget(self, kind: Callable[..., Widget], *arguments: object) -> Widget:
         """The widget of this kind and these arguments; made now if there is none yet."""
-        widget = self._widgets.get((kind, arguments))
+        asked = kind, repr(arguments)  # which may be of any type: the widget says what is wrong with them
+        widget = self._widgets.get(asked)
         if widget is None or widget.comm is None:  # not made yet, or closed
             from ..lab.widgets.backend import Link
 
-            widget = self._widgets[kind, arguments] = kind(Link(self._backend), *arguments)
+            widget = self._widgets[asked] = kind(Link(self._backend), *arguments)
         return widget
 
     @cached_property
-    def _widgets(self) -> dict[Hashable, Any]:
+    def _widgets(self) -> dict[tuple[object, str], Any]:
         """Those that were made, by their kind and arguments; they end with the system."""
         self._backend.at_close.append(self._end_widgets)
         return {}
