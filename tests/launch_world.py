@@ -12,7 +12,7 @@ from typing import Any, cast
 import turtle_lesson  # noqa: F401  (makes launch and launch_ros importable)
 from turtle_lesson.ros.ament.index import PackageIndex
 from turtle_lesson.ros.ament.package import Package
-from turtle_lesson.ros.launching import LaunchHandle, launch_file
+from turtle_lesson.ros.launching.service import LaunchHandle, launch_file
 
 
 class FakeSimulation:

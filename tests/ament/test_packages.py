@@ -193,6 +193,6 @@ def test_programs_ask_through_ament_index_python(demo: Path) -> None:
 
 
 def test_importing_the_simulation_does_not_load_launch() -> None:
-    code = "import sys, turtle_lesson.ros.launching; print('launch' in sys.modules, 'yaml' in sys.modules)"
+    code = "import sys, turtle_lesson.session.lesson; print('launch' in sys.modules, 'yaml' in sys.modules)"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout.split()[0] == "False"

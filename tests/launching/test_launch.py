@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
-from turtle_lesson.ros.launching import launch_description, launch_file, show_arguments
+from turtle_lesson.ros.launching.service import launch_description, launch_file, show_arguments
 
 LESSON = """
 from launch import LaunchDescription

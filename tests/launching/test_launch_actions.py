@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
-from turtle_lesson.ros.launching import LaunchError, launch_file
+from turtle_lesson.ros.launching.errors import LaunchError
+from turtle_lesson.ros.launching.service import launch_file
 
 START = "[INFO] [launch]: Default logging verbosity is set to INFO"
 

@@ -10,7 +10,8 @@ import pytest
 from launch_world import write, write_launch_file
 
 from turtle_lesson.ros.ament.package import Package
-from turtle_lesson.ros.launching import LaunchError, LaunchHandle, launch_file
+from turtle_lesson.ros.launching.errors import LaunchError
+from turtle_lesson.ros.launching.service import LaunchHandle, launch_file
 from turtle_lesson.ros.runtime.world import World, open_world
 
 SECOND = 1_000_000_000

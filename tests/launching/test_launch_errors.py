@@ -8,7 +8,8 @@ import pytest
 from launch_world import HEAD, FakeWorld, launch, node, write, write_launch_file
 
 from turtle_lesson.ros.ament.package import Package
-from turtle_lesson.ros.launching import LaunchError, find_launch_file, launch_file
+from turtle_lesson.ros.launching.errors import LaunchError, find_launch_file
+from turtle_lesson.ros.launching.service import launch_file
 from turtle_lesson.ros.sim.errors import learners_frames
 
 NO_FRONTEND = " - InvalidFrontendLaunchFileError: The launch file may have a syntax error, or its format is unknown"

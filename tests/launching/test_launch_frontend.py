@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from launch_world import FakeWorld, write
 
-from turtle_lesson.ros.launching import LaunchError, launch_file, show_arguments
+from turtle_lesson.ros.launching.errors import LaunchError
+from turtle_lesson.ros.launching.service import launch_file, show_arguments
 
 START = "[INFO] [launch]: Default logging verbosity is set to INFO"
 

@@ -14,7 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from launch_world import FakeWorld
 
-from turtle_lesson.ros.launching import LaunchError, launch_file, show_arguments
+from turtle_lesson.ros.launching.errors import LaunchError
+from turtle_lesson.ros.launching.service import launch_file, show_arguments
 
 TAGS = [
     "arg", "let", "node_container", "node", "lifecycle_node", "executable", "group", "include", "log", "log_info", "timer",

@@ -8,7 +8,8 @@ import pytest
 from launch_world import FakeWorld, launch, node, write, write_launch_file
 
 from turtle_lesson.ros.ament.package import Package
-from turtle_lesson.ros.launching import LaunchError, launch_file, show_arguments
+from turtle_lesson.ros.launching.errors import LaunchError
+from turtle_lesson.ros.launching.service import launch_file, show_arguments
 
 OTHERS = "Node(package='robot_controller', executable='obstacle_detector'),"
 

@@ -11,7 +11,7 @@ import pytest
 from launch_world import write
 
 from turtle_lesson.ros.ament.package import Package
-from turtle_lesson.ros.launching import LaunchHandle, launch_file
+from turtle_lesson.ros.launching.service import LaunchHandle, launch_file
 from turtle_lesson.ros.runtime.world import World, open_world
 
 SECOND = 1_000_000_000

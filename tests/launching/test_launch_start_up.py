@@ -12,7 +12,7 @@ from launch_world import write_launch_file
 from turtle_lesson import Lesson, start
 from turtle_lesson.ros.ament.package import Package
 from turtle_lesson.ros.cli.shell import run_line
-from turtle_lesson.ros.launching import LaunchHandle, launch_file
+from turtle_lesson.ros.launching.service import LaunchHandle, launch_file
 
 UP = "import time\nprint(f'up at {time.time() - 1.8e9:.1f}')\n"
 PROGRAMS = {

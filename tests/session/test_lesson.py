@@ -15,7 +15,7 @@ import pytest
 
 from turtle_lesson import Lesson, start
 from turtle_lesson.ros.cli.shell import run_line
-from turtle_lesson.ros.launching import LaunchError
+from turtle_lesson.ros.launching.errors import LaunchError
 from turtle_lesson.ros.sim.errors import WorldClosed
 from turtle_lesson.ros.sim.simulation import EPOCH
 from turtle_lesson.turtlesim.obstacles import Box, Circle

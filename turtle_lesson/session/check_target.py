@@ -74,14 +74,14 @@ class CheckTarget(OfWorld):
         from launch.launch_description_sources import AnyLaunchDescriptionSource
         from launch_ros.actions import PushRosNamespace, SetRemap
 
-        from ..ros import launching
+        from ..ros.launching import errors, service
 
-        source = AnyLaunchDescriptionSource(str(launching.find_launch_file(self._world, package, file_name)))
+        source = AnyLaunchDescriptionSource(str(errors.find_launch_file(self._world, package, file_name)))
         given = [(name, str(value)) for name, value in arguments.items()]
         apart = [PushRosNamespace(namespace), *(SetRemap(old, new) for old, new in renamed.items())]
         group = GroupAction([*apart, IncludeLaunchDescription(source, launch_arguments=given)])
         with self.ending_programs():
-            launching.launch_description(self._world, LaunchDescription([group])).wait_until_up()
+            service.launch_description(self._world, LaunchDescription([group])).wait_until_up()
             yield
 
     @contextmanager

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..lab.recorder import Recorder
     from ..ros.ament.source import Exported
     from ..ros.bags.recorder import Recording
-    from ..ros.launching import LaunchHandle
+    from ..ros.launching.service import LaunchHandle
     from ..turtlesim.obstacles import Obstacle
 
 
@@ -245,18 +245,18 @@ class Lesson(Inspection):
         again with the same arguments, it is stopped first, so that a cell can be run twice. Returns a handle
         whose `stop()` is Ctrl-C. Raises LaunchError, which says what is wrong and where.
         """
-        from ..ros import launching
+        from ..ros.launching import errors, service
 
         for name, value in (("package", package), ("launch_file", launch_file)):
             if not isinstance(value, str):
                 raise TypeError(
                     f'{name} must be a name such as "robot_controller" or "start_system.launch.py", got {value!r}'
                 )
-        path = launching.find_launch_file(self._world, package, launch_file)
+        path = errors.find_launch_file(self._world, package, launch_file)
         again = self._launched.get((path, repr(sorted(arguments.items()))))
         if again is not None and again.running:
             again.stop()  # or a cell that is run twice would double the robot
-        handle = launching.launch_file(self._world, path, arguments)
+        handle = service.launch_file(self._world, path, arguments)
         self._launched[path, repr(sorted(arguments.items()))] = handle
         handle.wait_until_up()
         return handle

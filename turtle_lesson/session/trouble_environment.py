@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..learner.story import FINISHED, HERE
-from ..ros import launching
 from ..ros.ament.package import Package, PythonProgram, Target
 from ..ros.ament.source import overlay, overlays, remove_all, use_source
 from ..ros.cli import colcon
@@ -91,6 +90,8 @@ class TroubleEnvironment(OfWorld):
         from launch import LaunchDescription
         from launch_ros.actions import Node
 
+        from ..ros.launching import service
+
         nodes = [
             Node(
                 package=each.package,
@@ -102,7 +103,7 @@ class TroubleEnvironment(OfWorld):
             )
             for each in programs
         ]
-        handle = launching.launch_description(self._world, LaunchDescription(nodes))
+        handle = service.launch_description(self._world, LaunchDescription(nodes))
         jobs(self._world).add("ros2 launch trouble.launch.py", handle)
         handle.wait_until_up()
 

@@ -93,7 +93,7 @@ def _argument_reaches(probe: Probe, owner: str, name: str, value: int | float) -
 @remembered
 def _launch_again(probe: Probe) -> dict[str, Any]:
     """The nodes' parameters in a second launch with other arguments, beside the first. Raises CannotLook if it is refused."""
-    from ...ros.launching import LaunchError
+    from ...ros.launching.errors import LaunchError
 
     package, file = LAUNCH.split()[2:]
     renamed = {name: f"/exam{name}" for name in (STATUS, SCAN, NAVIGATE, COMMANDS)}

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from io import StringIO
 from pathlib import Path
 
-from .. import launching
 from ..ament.index import changed_since_built
 from ..ament.package import ExecutableNotFoundError
-from ..launching import LaunchError, LaunchHandle
+from ..launching.errors import LaunchError, find_launch_file
+from ..launching.service import LaunchHandle, launch_file, show_arguments
 from ..runtime.files import FileOutput
 from ..runtime.world import current_world, run_for
 from ..sim.errors import shown_path
@@ -121,11 +121,11 @@ def _launch(args: Namespace) -> int:
         raise CommandError(error.reason, error.hint) from None
     try:
         if args.show:
-            print(launching.show_arguments(world, path))
+            print(show_arguments(world, path))
             return 0
         if args.print:
             raise CommandError("--print is not available here", "--show-args lists what the launch file takes.")
-        handle = launching.launch_file(world, path, given, show_all_output=args.all)
+        handle = launch_file(world, path, given, show_all_output=args.all)
     except LaunchError as error:
         print("\n".join(filter(None, (error.console, error.advice))))
         return 1
@@ -141,7 +141,7 @@ def _find(args: Namespace) -> tuple[Path, list[str]]:
     if "/" in name or name.endswith((".py", ".launch.xml", ".launch.yaml", ".launch.yml")):
         hint = "Name the package before the launch file, or give the path of a file that is there."
         raise CommandError(f"'{cut(name, 100)}' is not a valid package name", hint)
-    return launching.find_launch_file(current_world(), cut(name, 100), cut(str(file_name), 100)), words
+    return find_launch_file(current_world(), cut(name, 100), cut(str(file_name), 100)), words
 
 
 def _pairs(words: Sequence[str]) -> dict[str, str]:

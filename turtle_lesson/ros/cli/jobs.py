@@ -13,7 +13,7 @@ from itertools import takewhile
 from pathlib import Path
 from typing import TextIO
 
-from ..launching import LaunchHandle
+from ..launching.service import LaunchHandle
 from ..runtime.files import BorrowedStream, CellOutput, FileOutput
 from ..runtime.world import World
 from ..sim.process import Output, Process

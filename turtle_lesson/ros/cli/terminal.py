@@ -10,7 +10,7 @@ from errno import EINVAL, EISDIR
 from pathlib import Path
 
 from ..idl.names import did_you_mean
-from ..launching import LaunchHandle
+from ..launching.service import LaunchHandle
 from ..runtime import files
 from ..runtime.world import run_for
 from ..sim.process import Process
