@@ -32,10 +32,8 @@ if TYPE_CHECKING:
 
 WINDOW = 30.0
 """Seconds of robot time that the curves show."""
-MOST_STATUSES = 3000
-"""Statuses that are looked at: those of the window at a hundred a second."""
 POINTS = 300
-"""About so many of them are drawn at most: one every 0.1 s."""
+"""About so many statuses are drawn at most: one every 0.1 s."""
 STATUS_TIP = 30
 """All are sent again once so many are new."""
 
@@ -169,8 +167,7 @@ class Dashboard(GoalPad):
 
     def _send_statuses(self) -> None:
         """Send those of the window, thinned so that a point that stays does not move while time goes on."""
-        rows = self.backend.recorder.statuses.newest(MOST_STATUSES)
-        rows = rows[rows["stamp"] >= self._now() - round(WINDOW * NANOSECONDS)]
+        rows = self.backend.recorder.statuses.after(self._now() - round(WINDOW * NANOSECONDS) - 1)
         if len(rows) > POINTS:
             slots = rows["stamp"] // round(WINDOW / POINTS * NANOSECONDS)
             rows = rows[np.append(slots[1:] != slots[:-1], True)]

@@ -14,7 +14,6 @@ from rcl_interfaces.msg import Log
 from rclpy.subscription import Subscription
 from rclpy.task import Future
 
-from ...ros.stdlib.clocks import real_monotonic
 from ..graph import owner, servers
 from ..recording import NANOSECONDS
 from ..words import within
@@ -72,7 +71,6 @@ class GoalClient:
     def __init__(self, backend: Link, changed: Callable[[Goal], None]) -> None:
         self._backend, self._changed = backend, changed
         self._client: Any = None
-        self._found_by = 0.0
         self._unexplained: dict[int, Goal] = {}
         self._log: Subscription | None = None
         self._servers: list[str] = []
@@ -122,11 +120,10 @@ class GoalClient:
         except (AssertionError, TypeError, ValueError) as error:  # too large for its float32
             self._finish(goal, "not sent", f"{error}")
             return
-        node, now = self._backend.node, real_monotonic()
+        node = self._backend.node
         if self._client is None or self._client.srv_type is not NavigateTo:  # built anew, it is another one
             self.close()
             self._client = node.create_client(NavigateTo, SERVICE)
-            self._found_by = now + (DISCOVERY if self._backend.clock is None else 0)
         if self._client.service_is_ready():
             goal.state = "on its way"
             future = self._client.call_async(request)
@@ -135,7 +132,7 @@ class GoalClient:
             self._ends = self._rosout_ends()
             self._log = self._log or node.create_subscription(Log, "/rosout", self._hear, 1000)
             future.add_done_callback(partial(self._answered, goal))
-        elif now >= self._found_by:
+        elif self._backend.clock is not None or self._backend.now - goal.sent > DISCOVERY:
             by_hand = "ros2 run robot_controller navigator"
             how = f'Start the navigator: lesson.launch("robot_controller", "start_system.launch.py") or {by_hand} &'
             if self._backend.clock is None:

@@ -173,14 +173,13 @@ class ParametersPanel(LiveWidget):
         found = self._found.get(name)
         if found is None:
             raise ValueError(f"{self.node_name} has no parameter {name!r}.")
+        self._trouble = self._why_not()
         try:
             wanted = read_parameter(value, found.value.type or found.descriptor.type, found.descriptor.dynamic_typing)
+            if self._trouble:
+                raise ValueError(self._trouble)
         except (TypeError, ValueError) as error:
             self._told(found, f"Not asked: {error}")
-            return
-        self._trouble = self._why_not()
-        if self._trouble:
-            self._told(found, f"Not asked: {self._trouble}")
             return
 
         def told(answer: Any) -> None:

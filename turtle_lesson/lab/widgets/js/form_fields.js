@@ -18,7 +18,7 @@ function formFields(fields, order) {
 function formGroup(part, groups, depth) {
   const title = element("summary", {}, element("b", {}, part.name), " ", element("small", {}, part.type));
   groups[part.path] = element("div", { class: "tl-inner" }, part.control === "now" ? "the moment of sending, which a line for the terminal cannot know" : "");
-  return element("details", { class: "tl-group", "data-path": part.path, open: depth < 2 }, title, groups[part.path]);
+  return element("details", { class: "tl-group", open: depth < 2 }, title, groups[part.path]);
 }
 
 /** One field with its label, its help, and a place for what is wrong. */
