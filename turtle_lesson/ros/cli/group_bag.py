@@ -16,6 +16,10 @@ from pathlib import Path
 from rclpy.logging import get_logger
 
 from ..bags import BagError
+from ..bags.bag import info_text, open_bag
+from ..bags.player import Playback, parse_remaps, play
+from ..bags.recorder import Selection, checked_names, record
+from ..bags.writer import STORAGES, BagWriter
 from ..runtime import files
 from ..runtime.world import current_process
 from ..sim.simulation import EPOCH, NANOSECONDS
@@ -31,7 +35,6 @@ LONGEST = 1e9
 
 _at_least_0 = bounded("float", 0.0, LONGEST)
 _rate = bounded("positive_float", 1 / LONGEST, LONGEST)
-STORAGES = ["mcap", "sqlite3"]
 
 
 def existing_path(text: str) -> str:
@@ -63,9 +66,6 @@ READER = (
 )
 def _record(args: Namespace) -> None:
     """Record published messages in a bag."""
-    from ..bags.recorder import Selection, checked_names, record
-    from ..bags.writer import BagWriter
-
     topics = [*args.topics, *args.more_topics]
     if bool(args.all) + bool(topics) + bool(args.regex) > 1:
         raise _error("Must specify only one option out of topics, --regex or --all")
@@ -98,8 +98,6 @@ def _record(args: Namespace) -> None:
 @verb("bag info", *READER, flag("-t --topic-name", "Print only the names of the topics"))
 def _info(args: Namespace) -> None:
     """Describe what a bag contains."""
-    from ..bags.bag import info_text, open_bag
-
     try:
         bag = open_bag(Path(args.bag_path).expanduser())
     except BagError as error:
@@ -121,9 +119,6 @@ def _info(args: Namespace) -> None:
 )
 def _play(args: Namespace) -> int:
     """Publish recorded messages again."""
-    from ..bags.bag import open_bag
-    from ..bags.player import Playback, parse_remaps, play
-
     say = _logger("rosbag2_player")
     seconds = stretch_of(args) if args.loop else args.seconds
     try:

@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 from rclpy import qos
 from rclpy.node import Node
+from rosidl_runtime_py import utilities
 from rosidl_runtime_py.set_message import set_message_fields
 
 from ..idl.model import InvalidDefinition
@@ -27,8 +28,6 @@ def class_of(name: str, folder: str) -> Any:
 
     Raises CommandError with the real tool's sentence, and what was meant perhaps.
     """
-    from rosidl_runtime_py import utilities
-
     kind = {"msg": "message", "srv": "service"}.get(folder, folder)
     found = _find(getattr(utilities, f"get_{kind}"), name)
     if found is not None:
@@ -177,15 +176,15 @@ def add_verbs(
 
     @graph_verb(f"{kind} find", *common, wanted, *list_arguments(kind, "find"), help_text=f"The {kind}s of a type")
     def print_found(args: Namespace, node: Node) -> None:
-        from rosidl_runtime_py.utilities import get_interface
-
         type_name = getattr(args, f"{kind}_type")
         found = [name for name, types in chosen(args, node).items() if type_name in types]
         count = getattr(args, f"count_{kind}s")
         print_names(found, count=count)
         if found or count:
             return
-        if type_name.count("/") != 2 or _find(get_interface, type_name) is None:  # none, or typed in its short form
+        if (
+            type_name.count("/") != 2 or _find(utilities.get_interface, type_name) is None
+        ):  # none, or typed in its short form
             hint = suggest_type(type_name, folder)
             print(f"There is no type '{type_name}'\n{hint}".rstrip(), file=sys.stderr)
 
