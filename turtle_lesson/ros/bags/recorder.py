@@ -51,7 +51,6 @@ class Selection:
     regex: str = ""
     exclude: str = ""
     hidden: bool = False
-    unpublished: bool = False
 
     def __post_init__(self) -> None:
         for pattern in (self.regex, self.exclude):
@@ -109,9 +108,7 @@ class Recorder:
             return  # it is our own subscription that changes the graph
         self._looking = True
         for name, topic in self._graph.topics().items():
-            if name in self._seen or not (topic.writers or self._selection.unpublished):
-                continue
-            if self._selection.takes(name):
+            if topic.writers and name not in self._seen and self._selection.takes(name):
                 self._seen.add(name)
                 self._subscribe(name, topic)
         self._looking = False
@@ -133,7 +130,7 @@ class Recorder:
 
         # A real recorder keeps ten messages and loses the rest of a burst; this one keeps all.
         reliable = all(writer.quality.reliable for writer in writers)
-        latched = bool(writers) and all(writer.quality.latched for writer in writers)
+        latched = all(writer.quality.latched for writer in writers)
         profile = profile_of(reliable=reliable, latched=latched, keep_all=True)
         heard.subscription = self._node.create_subscription(message_class, name, write, profile)
         self._heard.append(heard)

@@ -59,7 +59,6 @@ READER = (
     arg("-e --regex", "Record the topics that match this pattern", default=""),
     arg("-x --exclude --exclude-regex", "Leave out the topics that match this pattern", default=""),
     flag("--include-hidden-topics", "Also record topics with a hidden name"),
-    flag("--include-unpublished-topics", "Also note topics without publishers"),
     arg("-o --output", "Folder to create (default: named after the date and time)"),
     arg("-s --storage", "Storage format of the bag", default="mcap", choices=STORAGES),
     duration(),
@@ -80,9 +79,7 @@ def _record(args: Namespace) -> None:
     seconds = stretch_of(args)
     try:
         names = checked_names(topics)
-        selection = Selection(
-            names, args.regex, args.exclude, args.include_hidden_topics, args.include_unpublished_topics
-        )
+        selection = Selection(names, args.regex, args.exclude, args.include_hidden_topics)
         bag = BagWriter(folder if os.path.lexists(folder) else files.check(folder), args.storage)
     except (OSError, ValueError) as error:
         reason = f"{error.filename}: {error.strerror}" if isinstance(error, OSError) else str(error)
