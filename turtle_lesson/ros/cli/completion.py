@@ -18,7 +18,7 @@ from ..runtime.world import World, current_world
 from .cells import COMMANDS
 from .group_pkg import package_names
 from .run_command import GROUPS
-from .script import Operator, UnfinishedError, Word, tokens
+from .script import UnfinishedError, Word, tokens
 from .typed_values import interface_names
 from .verb import Verb, absolute
 
@@ -29,7 +29,7 @@ def complete(world: World, line: str) -> list[str]:
         found = tokens(line)
     except UnfinishedError:
         return []
-    start = max((place + 1 for place, token in enumerate(found) if isinstance(token, Operator)), default=0)
+    start = max((place + 1 for place, token in enumerate(found) if isinstance(token, str)), default=0)
     words = [token.text for token in found[start:] if isinstance(token, Word)]
     begun = words.pop() if words and not line[-1:].isspace() else ""
     if not words or words[0] not in COMMANDS:

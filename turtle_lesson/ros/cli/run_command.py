@@ -251,12 +251,7 @@ GROUPS = {
         Group("ros2 pkg", "Find packages, and create new ones", "pkg"),
         Group("ros2 run", "Start one program of a package", "run_launch"),
         Group("ros2 service", "Find services and call them", "calls", ("--include-hidden-services", _HIDDEN)),
-        Group(
-            "ros2 topic",
-            "Listen to topics, publish on them, measure them",
-            "topic",
-            ("--include-hidden-topics", _HIDDEN),
-        ),
+        Group("ros2 topic", "Listen to, publish on and measure topics", "topic", ("--include-hidden-topics", _HIDDEN)),
     )
 }
 

@@ -26,7 +26,6 @@ _PIECE = re.compile(
     |(?P<continued>\\[ \t]*\n)|(?!\\[ \t]*\Z)\\(?P<escaped>.)""",
     re.DOTALL | re.VERBOSE,
 )
-
 """A piece of a word: it ends where quotes begin or end. Blanks behind the backslash at a line's end, which cannot be seen,
 do no harm here."""
 
@@ -47,15 +46,12 @@ class Word:
     pattern: str
 
 
-class Operator(str):
-    """A sign such as `&&`."""
-
-
 class BackslashAtEndError(UnfinishedError):
     """The last line ends in a backslash."""
 
 
-Token = Word | Operator
+Token = Word | str
+"""A word, or a sign such as `&&`."""
 
 
 def tokens(text: str) -> list[Token]:
@@ -91,7 +87,7 @@ def _scan(text: str, at: int = 0) -> Iterator[tuple[Token, int]]:
             return
         if sign := _OPERATOR.match(text, at):
             at = sign.end()
-            token = Operator(sign[0])
+            token = sign[0]
         else:
             token, at = _word(text, at)
         yield token, at
@@ -126,14 +122,14 @@ class Command:
     """One simple command: its words, and signs such as `>`, each with its file."""
 
     words: list[Word] = field(default_factory=list)
-    redirections: list[tuple[Operator, Word]] = field(default_factory=list)
+    redirections: list[tuple[str, Word]] = field(default_factory=list)
     background: bool = False
 
 
 def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
     """The pipelines of a script, each with the sign before it that decides whether it runs."""
     condition, pipeline = "", [Command()]
-    rest = iter([*found, Operator("\n")])
+    rest = iter([*found, "\n"])
     for token in rest:
         command = pipeline[-1]
         if isinstance(token, Word):
