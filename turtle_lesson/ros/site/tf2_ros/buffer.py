@@ -58,8 +58,7 @@ class Buffer(BufferCore):
         for future, way in self._waiting:
             if not (future.done() or future.cancelled()) and self._can(way)[0]:
                 future.set_result(self._look_up(way))
-        if self._waiting:
-            self._waiting = [each for each in self._waiting if not (each[0].done() or each[0].cancelled())]
+        self._waiting = [each for each in self._waiting if not (each[0].done() or each[0].cancelled())]
 
     def transform(self, object_stamped: Any, target_frame: str, timeout: Duration = AT_ONCE) -> Any:
         """Stamped data as seen from the target frame, at the time of its stamp.
