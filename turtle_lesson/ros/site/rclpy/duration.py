@@ -10,7 +10,8 @@ from turtle_lesson.ros.runtime.world import current_world
 
 from .constants import S_TO_NS
 
-_LIMIT = 2**63
+LIMIT = 2**63
+"""So many ns are too many for ROS."""
 
 
 @total_ordering
@@ -22,7 +23,7 @@ class Duration:
 
     def __init__(self, *, seconds: float = 0, nanoseconds: int = 0) -> None:
         total = int(seconds * S_TO_NS) + int(nanoseconds)
-        if not -_LIMIT <= total < _LIMIT:
+        if not -LIMIT <= total < LIMIT:
             raise OverflowError("Total nanoseconds value is too large to store in C duration.")
         self._nanoseconds = total
 
@@ -51,7 +52,7 @@ class Duration:
         return f"Duration(nanoseconds={self._nanoseconds})"
 
     def __str__(self) -> str:
-        return f"{self._nanoseconds} nanoseconds" if self._nanoseconds < 2**63 - 1 else "Infinite"
+        return f"{self._nanoseconds} nanoseconds" if self._nanoseconds < LIMIT - 1 else "Infinite"
 
     def __eq__(self, other: object) -> bool:
         """Whether it is as long. Raises TypeError until Iron for what is no duration."""
@@ -91,4 +92,4 @@ def equals_no_other_thing(what: str, other: object) -> Any:
     raise error
 
 
-Infinite = Duration(nanoseconds=2**63 - 1)
+Infinite = Duration(nanoseconds=LIMIT - 1)

@@ -8,9 +8,7 @@ from typing import Any
 
 from .clock_type import ClockType
 from .constants import S_TO_NS
-from .duration import Duration, equals_no_other_thing
-
-_LIMIT = 2**63
+from .duration import LIMIT, Duration, equals_no_other_thing
 
 
 @total_ordering
@@ -27,7 +25,7 @@ class Time:
         if nanoseconds < 0:
             raise ValueError("Nanoseconds value must not be negative")
         total = int(seconds * S_TO_NS) + int(nanoseconds)
-        if total >= _LIMIT:
+        if total >= LIMIT:
             raise OverflowError("Total nanoseconds value is too large to store in C time point.")
         self._nanoseconds = total
         self._clock_type = clock_type
