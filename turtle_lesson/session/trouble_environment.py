@@ -51,7 +51,7 @@ class TroubleEnvironment(OfWorld):
 
     def __init__(self, world: World) -> None:
         super().__init__(world)
-        sourced = list(dict.fromkeys(each.install for each in overlays(world)))
+        sourced = list(dict.fromkeys(install for install, _ in overlays(world)))
         self._sourced = world.notebook.state(_SourcedBefore, sourced)
         if "robot_draft" not in world.packages:
             programs: dict[str, Target] = {path.stem: path for path in DRAFTS.glob("navigator_*.py")}

@@ -151,10 +151,7 @@ class Builder:
             installed.intersection(found.dependencies),
             lambda name: installed.intersection(needs_of(prefix_of(install, name), name)),
         )
-        packages = [read_installed(install, name) for name in sorted(needed)]
-        types = types_for(
-            found, {each.name: (each.share, tuple(each.interfaces)) for each in packages if each.interfaces}
-        )
+        types = types_for(found, [read_installed(install, name) for name in sorted(needed)])
         # Packages that are sourced are found, too, but not an older build of the package itself.
         findable = frozenset({*self.world.packages.names(), *needed} - {found.name})
         return Environment(install, self.build, findable, types, self.symlink)

@@ -10,17 +10,16 @@ import importlib
 import shutil
 import sys
 import tempfile
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
 from ..distro import Release
-from ..idl.names import LOWER_CASE, did_you_mean
+from ..idl.names import did_you_mean
 from ..idl.registry import Registry, registry
 from ..runtime.world import World
 from ..sim.errors import shown_path
-from .cmake_commands import definitions
 from .index import CMAKE_PACKAGES, PYTHON_PACKAGES, is_launch_file
 from .install_tree import (
     LAYOUT,
@@ -63,20 +62,12 @@ def source(world: World, words: list[str], *, stdout: TextIO, stderr: TextIO, cw
 # -- overlays ----------------------------------------------------------------------------------------------------------
 
 
-@dataclass
-class _Overlay:
-    """One sourced package, and the install folder that it is in."""
-
-    install: Path
-    package: Package
-
-
-class _Overlays(list[_Overlay]):
+class _Overlays(list[tuple[Path, Package]]):
     """What is sourced in a world."""
 
 
-def overlays(world: World) -> list[_Overlay]:
-    """What is sourced, in its order."""
+def overlays(world: World) -> list[tuple[Path, Package]]:
+    """The packages that are sourced, in their order, each with the install folder that it is in."""
     return world.notebook.state(_Overlays)
 
 
@@ -88,18 +79,18 @@ def overlay(world: World, install: Path) -> None:
 
 def resource(world: World, install: Path, name: str) -> None:
     """Read one package anew, if it is sourced: its files have changed."""
-    if any((each.install, each.package.name) == (install.resolve(), name) for each in overlays(world)):
+    if (install.resolve(), name) in [(place, package.name) for place, package in overlays(world)]:
         _add(world, install.resolve(), name)
 
 
 def _add(world: World, install: Path, name: str) -> None:
     if not overlays(world):
         world.notebook.at_exit.append(lambda: remove_all(world))
-    for each in overlays(world)[:]:
-        if (each.install, each.package.name) == (install, name):
-            _remove(world, each)
+    for place, package in overlays(world)[:]:
+        if (place, package.name) == (install, name):
+            _remove(world, package)
     package = read_installed(install, name)
-    overlays(world).append(_Overlay(install, package))
+    overlays(world).append((install, package))
     _show(world, package)
 
 
@@ -112,16 +103,14 @@ def _show(world: World, package: Package) -> None:
     importlib.invalidate_caches()
 
 
-def _remove(world: World, each: _Overlay) -> None:
-    package = each.package
-    overlays(world).remove(each)
+def _remove(world: World, package: Package) -> None:
+    overlays(world)[:] = [each for each in overlays(world) if each[1] is not package]
     world.packages.remove(package)
-    is_known = bool(package.interfaces) and package.name in registry.packages()
-    if is_known and registry.package(package.name).directory == package.share:
+    if any((each.name, each.directory) == (package.name, package.share) for each in registry.added()):
         registry.remove(package.name)  # unless somebody else has put another in its place
         if package.name in world.packages and (hidden := world.packages.get(package.name)).interfaces:
             registry.add(package.name, hidden.share, hidden.interfaces)
-    shared = {path for other in overlays(world) for path in other.package.modules}  # in a merged install folder
+    shared = {path for _, other in overlays(world) for path in other.modules}  # in a merged install folder
     _forget(package, {*package.modules} - shared)
 
 
@@ -133,8 +122,8 @@ def _forget(package: Package, folders: Collection[Path]) -> None:
 
 def remove_all(world: World) -> None:
     """Undo every `source` of a world."""
-    for each in reversed(overlays(world)[:]):
-        _remove(world, each)
+    for _, package in reversed(overlays(world)[:]):
+        _remove(world, package)
 
 
 # -- a package that is used as it lies there ---------------------------------------------------------------------------
@@ -168,17 +157,15 @@ def read_source_package(folder: Path | str) -> Package:
     return Package(found.name, folder, executables, interfaces, folder, installed=installed, modules=modules)
 
 
-def types_for(found: Found, others: Mapping[str, tuple[Path, tuple[str, ...] | None]]) -> Registry:
-    """The interfaces that a package's build sees: the built-in ones, what is sourced, `others`, and its own files."""
-    sourced = [registry.package(name) for name in registry.packages() if registry.was_added(name)]
-    places = {package.name: (package.directory, package.files) for package in sourced} | dict(others)
-    places.pop(found.name, None)
-    files = tuple(definitions(found.path))
-    if files and LOWER_CASE.fullmatch(found.name):
-        places[found.name] = (found.path, files)
+def types_for(found: Found, built: Iterable[Package] = ()) -> Registry:
+    """The interfaces that a package's build sees, but for its own: the built-in ones, what is sourced, and what is `built`."""
     types = Registry()
-    for name, place in places.items():
-        types.add(name, *place)
+    for sourced in registry.added():
+        if sourced.name != found.name:
+            types.add(sourced.name, sourced.directory, sourced.files)
+    for package in built:
+        if package.interfaces:
+            types.add(package.name, package.share, package.interfaces)
     return types
 
 
@@ -252,7 +239,7 @@ def export_package(world: World, package: str | Path, to: str | Path, *, overwri
         raise PackageError(f"{shown_path(str(readme if own else target))} already exists", hint=hint)
     with tempfile.TemporaryDirectory() as scratch:
         install, build = Path(scratch, "install"), Path(scratch, "build")
-        environment = Environment(install, build, frozenset(registry.packages()), types_for(found, {}))
+        environment = Environment(install, build, frozenset(registry.packages()), types_for(found))
         outcome = checked_build(found, environment)
     imports = list(_imports(found.path))
     for file, line, name in imports:

@@ -141,9 +141,9 @@ class Registry:
         """Whether there is a package of this name, or of one that newer releases use."""
         return package in self._added or ALIASES.get(package, package) in self._built_in
 
-    def was_added(self, package: str) -> bool:
-        """Whether a package was added, and is not the built-in one of its name."""
-        return package in self._added
+    def added(self) -> list[Package]:
+        """The packages that were added, and are not the built-in ones."""
+        return list(self._added.values())
 
     def text(self, package: str, interface: str, *, comments: bool = False) -> str:
         """The text of a definition file, e.g. of `geometry_msgs` and `msg/Twist`.
