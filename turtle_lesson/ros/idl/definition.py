@@ -237,24 +237,15 @@ def _parse_string(base: str, text: str, bound: int | None) -> str:
     return text
 
 
-_STRING_ELEMENT = re.compile(r"""\s*(?:"((?:\\"|[^"])*)"|'((?:\\'|[^'])*)'|([^,"'][^,]*))\s*(?:,|$)""")
+_STRING_ELEMENT = re.compile(r"""(\s*(?:"((?:\\"|[^"])*)"|'((?:\\'|[^'])*)'|([^,"'][^,]*))\s*(?:,|$))""")
 
 
 def _split_strings(text: str) -> list[str]:
     """Split at commas that stand outside quotes, and take the quotes off."""
-    elements: list[str] = []
-    position = 0
-    while position < len(text.rstrip()):
-        match = _STRING_ELEMENT.match(text, position)
-        if match is None:
-            raise InvalidDefinition(f"string [{text[position:]}] incorrectly quoted\n{elements}")
-        double, single, bare = match.groups()
-        if double is not None:
-            elements.append(double.replace('\\"', '"'))
-        else:
-            elements.append(bare if single is None else single.replace("\\'", "'"))
-        position = match.end()
-    return elements
+    found = _STRING_ELEMENT.findall(text.rstrip())
+    if "".join(whole for whole, *_ in found) != text.rstrip():
+        raise InvalidDefinition(f"string [{text}] incorrectly quoted")
+    return [double.replace('\\"', '"') or single.replace("\\'", "'") or bare for _, double, single, bare in found]
 
 
 def _invalid(type_: object, text: str, rule: str) -> InvalidDefinition:
