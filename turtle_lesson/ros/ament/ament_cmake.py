@@ -10,11 +10,11 @@ import os
 from collections.abc import Iterator
 
 from ..idl.names import did_you_mean
+from ..idl.registry import Package
 from ..sim.errors import shown_path
 from .cmake import Command, compiled, evaluate
 from .cmake_commands import (
     InterfaceCheck,
-    definitions,
     files_to_install,
     first_line,
     install_items,
@@ -283,7 +283,9 @@ class _Build:
                 "<export><build_type>ament_cmake</build_type></export>."
             )
         # Nothing is made of a definition that is not named, and importing it fails.
-        if unnamed := [file for file in definitions(self.found.path) if file not in self.interfaces]:
+        own = Package(self.found.name, self.found.path)
+        lying = [own.path(each).relative_to(own.directory).as_posix() for each in own.interface_names()]
+        if unnamed := [file for file in lying if file not in self.interfaces]:
             names = " ".join(f'"{file}"' for file in unnamed)
             yield (
                 f"nothing is generated from {', '.join(unnamed)}, which CMakeLists.txt does not name: write {names} in "

@@ -112,12 +112,6 @@ _GENERATE = f"{SHARE}/rosidl_cmake/cmake/rosidl_generate_interfaces.cmake"
 _ADAPT = f"{SHARE}/rosidl_adapter/cmake/rosidl_adapt_interfaces.cmake:59 (message)"
 
 
-def definitions(folder: Path) -> list[str]:
-    """The definition files of a package where they are looked for, such as `msg/TurtleStatus.msg`."""
-    found = [path for kind in FOLDERS for path in sorted((folder / kind).glob(f"*.{kind}"))]
-    return [path.relative_to(folder).as_posix() for path in found]
-
-
 class InterfaceCheck:
     """Checks one `rosidl_generate_interfaces`, in the order in which the real one finds fault."""
 

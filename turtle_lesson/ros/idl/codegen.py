@@ -195,9 +195,6 @@ def class_variable(message_class: type) -> str:
 # -- the text of whole classes ----------------------------------------------------------------------------------------
 
 
-Lines = list[str]
-
-
 def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
     """Metaclass, class and fresh-message function of one message."""
     name = definition.name
@@ -317,7 +314,7 @@ def _property(kind: Kind) -> str:
 '''
 
 
-def _indented(by: int, lines: Lines) -> str:
+def _indented(by: int, lines: list[str]) -> str:
     return "".join(f"{' ' * by}{line}\n" for line in lines)
 
 
@@ -336,12 +333,12 @@ def _stored(kind: Kind, value: str) -> str:
     return f"({value} if {kind.test.format(value=value)} else {checked})" if kind.test else checked
 
 
-def _filled(new: str, kinds: Sequence[Kind], old: str, packed: list[tuple[str, str]]) -> Lines:
+def _filled(new: str, kinds: Sequence[Kind], old: str, packed: list[tuple[str, str]]) -> list[str]:
     """Fill a new message, and those of its messages that are written out, with the values of an old one, or without one afresh.
 
     An old message's float32 fields are left for one packing at the end.
     """
-    lines: Lines = []
+    lines: list[str] = []
     for kind in kinds:
         target, source = f"{new}._{kind.name}", f"{old}._{kind.name}"
         if kind.element_class is not None and kind.inner:
