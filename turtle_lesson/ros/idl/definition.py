@@ -7,7 +7,6 @@ exist is not known here: that is the registry's part.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import zip_longest
 from pathlib import Path
@@ -57,14 +56,17 @@ def _wrong_separators(folder: str, parts: int) -> InvalidDefinition:
 
 
 def _parse_message(folder: str, package: str, name: str, lines: list[Line], text: str, file: str | None) -> Definition:
-    members: list[Field | Constant] = []
+    members: dict[tuple[str, str], Field | Constant] = {}
     interface = f"{package}/{folder}/{name}"
     for number, raw in lines:
         line = raw.partition("#")[0].rstrip()
         if not line:
             continue
         try:
-            members.append(_parse_line(package, name, line, number))
+            member = _parse_line(package, name, line, number)
+            what = "fields" if isinstance(member, Field) else "constants"
+            if members.setdefault((what, member.name), member) is not member:
+                raise InvalidDefinition(f"the {what} iterable contains duplicate names: {member.name}")
         except InvalidDefinition as error:
             raise error.locate(interface=interface, file=file, line=number, line_text=line.strip()) from None
     try:
@@ -72,15 +74,8 @@ def _parse_message(folder: str, package: str, name: str, lines: list[Line], text
         names.check("message", name)
     except InvalidDefinition as error:
         raise error.locate(interface=interface, file=file) from None
-    fields = tuple(each for each in members if isinstance(each, Field))
-    constants = tuple(each for each in members if isinstance(each, Constant))
-    groups: dict[str, Sequence[Field | Constant]] = {"fields": fields, "constants": constants}
-    for what, found in groups.items():
-        first = {each.name: each for each in reversed(found)}
-        twice = next((each for each in found if first[each.name] is not each), None)
-        if twice is not None:
-            refused = InvalidDefinition(f"the {what} iterable contains duplicate names: {twice.name}")
-            raise refused.locate(interface=interface, file=file, line=twice.line, line_text=str(twice))
+    fields = tuple(each for each in members.values() if isinstance(each, Field))
+    constants = tuple(each for each in members.values() if isinstance(each, Constant))
     return Definition(package, folder, name, text, file, fields, constants)
 
 

@@ -105,7 +105,9 @@ class _Builder:
                     check_value(member.type, member.value)
                     continue
                 kinds.append(self._kind(definition, member))
-                weight += weight_of(member.type, kinds[-1].element_class)
+                type_, element = member.type, kinds[-1].element_class
+                is_sequence = type_.is_array and not type_.is_fixed  # of any length, at first of none
+                weight += 1 if is_sequence else (type_.size or 1) * getattr(element, "_WEIGHT", 1)
                 if weight > MAX_WEIGHT:
                     reason = (
                         f"each message {name} would consist of {weight:,} values, which is more than fits into memory"
@@ -178,13 +180,6 @@ CPP_WORDS = frozenset(_CPP.split())
 
 MAX_WEIGHT = 10_000_000
 """How many values and messages one message may consist of: more would fill the memory of a small computer."""
-
-
-def weight_of(type_: FieldType, message_class: type | None) -> int:
-    """How many values and messages a field's default consists of; `message_class` is the class of its elements, if any."""
-    if type_.is_array and not type_.is_fixed:
-        return 1
-    return (type_.size or 1) * (message_class._WEIGHT if message_class else 1)  # type: ignore[attr-defined]
 
 
 def check_buildable(field: Field) -> None:
