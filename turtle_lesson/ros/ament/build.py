@@ -50,7 +50,6 @@ class _Job:
     found: Found
     environment: Environment
     outcome: Outcome
-    began: float
     ends: float
 
 
@@ -93,7 +92,7 @@ class Builder:
             if self.code and not self.go_on:
                 for job in self.running:
                     self.ended["aborted"].append(job.found.name)
-                    seconds = self.now - job.began + 0.05
+                    seconds = self.now - job.ends + job.outcome.seconds + 0.05
                     self._say("console_start_end", f"Aborted  <<< {job.found.name} [{seconds:.2f}s]")
                 break
         write_setup_files(self.install)
@@ -129,7 +128,7 @@ class Builder:
                     outcome = Outcome(1, seconds=0.01, colcon_error=missing)
                 else:
                     outcome = (build_ament_python if found.is_python else build_ament_cmake)(found, environment)
-                self.running.append(_Job(found, environment, outcome, self.now, self.now + outcome.seconds))
+                self.running.append(_Job(found, environment, outcome, self.now + outcome.seconds))
 
     def _missing(self, found: Found) -> str:
         """What colcon says where packages of this workspace are needed and neither built nor sourced."""
@@ -149,7 +148,7 @@ class Builder:
         installed = {*installed_names(install)} - {found.name}
         needed = reached(
             installed.intersection(found.dependencies),
-            lambda name: installed.intersection(needs_of(prefix_of(install, name), name)),
+            lambda name: installed.intersection(needs_of(install, name)),
         )
         types = types_for(found, [read_installed(install, name) for name in sorted(needed)])
         # Packages that are sourced are found, too, but not an older build of the package itself.

@@ -196,9 +196,9 @@ def prefix_of(install: Path, name: str) -> Path:
     return install if layout_of(install) == "merged" else install / name
 
 
-def needs_of(prefix: Path, name: str) -> list[str]:
+def needs_of(install: Path, name: str) -> list[str]:
     """The packages that an installed one needs when it runs."""
-    file = prefix / "share" / "colcon-core" / "packages" / name
+    file = prefix_of(install, name) / "share/colcon-core/packages" / name
     return file.read_text(encoding="utf-8").split(":") if file.is_file() else []
 
 
@@ -206,7 +206,7 @@ def installed_names(install: Path) -> list[str]:
     """The packages in an install folder, each after those it needs."""
     pattern = "share/colcon-core/packages/*" if layout_of(install) == "merged" else "*/share/colcon-core/packages/*"
     names = {file.name for file in install.glob(pattern) if file.is_file()}
-    needs = {name: names.intersection(needs_of(prefix_of(install, name), name)) for name in names}
+    needs = {name: names.intersection(needs_of(install, name)) for name in names}
     ordered, in_circles = by_rounds(needs)
     return ordered + in_circles
 
