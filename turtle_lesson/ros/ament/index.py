@@ -99,7 +99,8 @@ class LaunchedPackages(PackageIndex):
     def executable(self, package: str, executable: str) -> Target:
         """What runs as `executable` of a package. Raises NotHereError, too, if only a robot can start it."""
         if _is_absent(package, self._layers):
-            raise left_out(package if package == executable else f"{executable} of {package}", package)
+            what = package if package == executable else f"{executable} of {package}"
+            raise NotHereError(what, why_not_here(package))
         try:
             return super().executable(package, executable)
         except CompiledProgramError as error:
@@ -279,11 +280,6 @@ def package_of(path: str | Path) -> str:
     """The absent package whose folder a path leads into; nothing for every other path."""
     path = Path(path)
     return path.relative_to(_PLACE).parts[0] if path.is_relative_to(_PLACE) and path != _PLACE else ""
-
-
-def left_out(what: str, name: str) -> NotHereError:
-    """The error for something of an absent package, such as its program or launch file."""
-    return NotHereError(what, why_not_here(name))
 
 
 CMAKE_PACKAGES = frozenset(_words("found by find_package"))

@@ -56,10 +56,9 @@ def install_scripts(folder: Path) -> str | None:
         config.read(folder / "setup.cfg", encoding="utf-8")
     except (configparser.Error, UnicodeDecodeError) as error:
         raise SetupError(f"setup.cfg: {error}\n") from None
-    for option in ("install_scripts", "install-scripts"):
-        if config.has_option("install", option):
-            return config.get("install", option).strip().removeprefix("$base").strip("/")
-    return None
+    given = config["install"] if config.has_section("install") else {}
+    found = given.get("install_scripts", given.get("install-scripts"))
+    return None if found is None else found.strip().removeprefix("$base").strip("/")
 
 
 # -- the program that runs a setup.py ------------------------------------------------------------------------------------

@@ -126,7 +126,8 @@ class IncludeLaunchDescription(Action):
             return source.get_launch_description(context)
         except FileNotFoundError:
             if package := index.package_of(source.location):
-                raise index.left_out(f"{os.path.basename(source.location)} of {package}", package) from None
+                what = f"{os.path.basename(source.location)} of {package}"
+                raise NotHereError(what, index.why_not_here(package)) from None
             raise
         except InvalidLaunchFileError as error:
             module = getattr(error.__cause__, "name", None) if isinstance(error.__cause__, ImportError) else None
