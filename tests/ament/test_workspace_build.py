@@ -661,7 +661,7 @@ def test_several_packages_in_cpp_are_named_in_one_warning(package: Path, world: 
         add(package, name, text=OTHER.format(name=name, find=text))
     assert colcon(world).err.splitlines()[1:] == [
         "  one: without a",
-        "  two: without p0, p1, p2, p3, p4, p5, p6, p7 and 3 more",
+        "  two: without p0, p1, p2, p3, p4, p5, p6, p7, p8, p9, p10",
     ]
 
 

@@ -211,22 +211,14 @@ class Builder:
         lines = []
         for name, outcome in sorted(self.outcomes.items()):
             if outcome.left_out or outcome.lacking:
-                needing = [found.name for found in self.workspace if name in found.dependencies]
-                parts = [
-                    _listed("without", outcome.left_out),
-                    _listed("needs", outcome.lacking) + (", not here" if outcome.lacking else ""),
-                    _listed("needed by", needing if outcome.left_out else []),
-                ]
-                lines.append(f"  {name}: {'; '.join(filter(None, parts))}")
+                needing = [found.name for found in self.workspace if name in found.dependencies and outcome.left_out]
+                lacking = [*outcome.lacking, "not here"] if outcome.lacking else []
+                parts = {"without": outcome.left_out, "needs": lacking, "needed by": needing}
+                said = "; ".join(f"{word} {', '.join(names)}" for word, names in parts.items() if names)
+                lines.append(f"  {name}: {said}")
         if lines:
             head = "Warning: C++ is not compiled here. All else of these packages was built"
             print(f"{head} (interfaces, launch files, parameters, Python programs):", *lines, sep="\n", file=self.err)
-
-
-def _listed(word: str, names: list[str]) -> str:
-    """`without talker, listener`, of many names the first ones; nothing without names."""
-    more = f" and {len(names) - 8} more" if len(names) > 8 else ""
-    return f"{word} {', '.join(names[:8])}{more}" if names else ""
 
 
 def _packages(count: int) -> str:
