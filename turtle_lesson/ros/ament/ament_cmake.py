@@ -108,19 +108,17 @@ class _Build:
 
     def _text(self) -> str:
         """What CMakeLists.txt says."""
-        folder = self.found.path
-        file = folder / "CMakeLists.txt"
         try:
-            return file.read_text(encoding="utf-8")
+            return (self.found.path / "CMakeLists.txt").read_text(encoding="utf-8")
         except FileNotFoundError:
-            place = shown_path(str(folder))
+            place = shown_path(str(self.found.path))
             text = f'CMake Error: The source directory "{place}" does not appear to contain CMakeLists.txt.\n'
             hint = (
                 "A package that is built from a setup.py says <build_type>ament_python</build_type> in its package.xml."
             )
-            raise BuildFailure(text, hint, seconds=0.1) from None
         except (OSError, UnicodeDecodeError) as error:
-            raise BuildFailure(f"CMake Error: CMakeLists.txt cannot be read: {error}\n", seconds=0.1) from None
+            text, hint = f"CMake Error: CMakeLists.txt cannot be read: {error}\n", ""
+        raise BuildFailure(text, hint, seconds=0.1)
 
     # -- configure -------------------------------------------------------------------------------------------------
 
