@@ -142,7 +142,7 @@ def test_a_service_cannot_be_made_but_its_parts_can(known):
 
 def test_services_and_actions_show_that_they_are_no_messages(known):
     action = built_in.get("turtlesim/action/RotateAbsolute")
-    assert [each._TYPE_SUPPORT.kind for each in (Twist, known["NavigateTo"], action)] == [
+    assert [each._TYPE_SUPPORT.folder for each in (Twist, known["NavigateTo"], action)] == [
         "msg",
         "srv",
         "action",

@@ -1,7 +1,8 @@
 """The source text of generated classes, and its pieces: how each kind of field is checked, made fresh and copied.
 
 A piece is an expression with `{value}` where the value belongs. Names that begin with an underscore are
-globals of the generated module; no field can have such a name.
+globals of the generated module; no field can have such a name. The definition itself is `_TYPE_SUPPORT`, where ROS keeps
+pointers to its C code.
 """
 
 from __future__ import annotations
@@ -202,9 +203,7 @@ def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
     types = {kind.name: str(slot_type(kind.member.type)) for kind in kinds}
     constants = {each.name: literal(each.type, each.value) for each in definition.constants}
     defaults = {f"{kind.name.upper()}__DEFAULT": kind.fresh for kind in kinds if kind.member.default is not None}
-    of_class = [_class_property(each, f"Message constant '{each}'.", value) for each, value in constants.items()]
-    text = "Return default value of a message field."
-    of_class += [_class_property(each, text, value) for each, value in defaults.items()]
+    of_class = {**constants, **defaults}
     same = [kind.same.format(value=f"self._{kind.name}", other=f"other._{kind.name}") for kind in kinds]
     arguments, construct = "*, " if kinds else "", []
     for kind in kinds:
@@ -223,17 +222,17 @@ def message_source(definition: Definition, kinds: Sequence[Kind]) -> str:
 class Metaclass_{name}(type):
     """Metaclass of message '{name}'."""
 
-    _TYPE_SUPPORT = _support_{name}
-{"".join(of_class)}
+    _TYPE_SUPPORT = _definition_{name}
+{"".join(_class_property(each, value) for each, value in of_class.items())}
 
 class {name}(metaclass=Metaclass_{name}):
     {_docstring(name, types, constants)}
 
-{_indented(4, [f"{each} = {value}" for each, value in {**constants, **defaults}.items()])}\
+{_indented(4, [f"{each} = {value}" for each, value in of_class.items()])}\
     __slots__ = {["_" + each for each in types]}
     _fields_and_field_types = {types}
     SLOT_TYPES = _slot_types_{name}
-    _TYPE_SUPPORT = _support_{name}
+    _TYPE_SUPPORT = _definition_{name}
     _TYPE_NAME = '{definition.full_name}'
     _DEFINITION = _definition_{name}
     _KINDS = _kinds_{name}
@@ -276,14 +275,14 @@ def wrapper_source(definition: Definition, parts: dict[str, str]) -> str:
 class Metaclass_{name}(type):
     """Metaclass of {what.lower()} '{name}'."""
 
-    _TYPE_SUPPORT = _support_{name}
+    _TYPE_SUPPORT = _definition_{name}
 
 
 class {name}(metaclass=Metaclass_{name}):
     """{what} class '{name}'."""
 
 {_indented(4, [f"{attribute} = {value}" for attribute, value in parts.items()])}\
-    _TYPE_SUPPORT = _support_{name}
+    _TYPE_SUPPORT = _definition_{name}
     _TYPE_NAME = '{definition.full_name}'
     _DEFINITION = _definition_{name}
 
@@ -292,11 +291,11 @@ class {name}(metaclass=Metaclass_{name}):
 '''
 
 
-def _class_property(name: str, about: str, value: str) -> str:
+def _class_property(name: str, value: str) -> str:
     return f'''
     @_property
     def {name}(cls):
-        """{about}"""
+        """Message constant, or the default value of a message's field."""
         return {value}
 '''
 

@@ -93,7 +93,7 @@ class _Builder:
             }
             parts["Impl"] = f"_impl_{name}"
             self._globals[f"_impl_{name}"] = type("Impl", (), impl)
-        self._run(definition, "action" if is_action else "srv", wrapper_source(definition, parts))
+        self._run(definition, wrapper_source(definition, parts))
 
     def _add_message(self, definition: Definition) -> None:
         name = definition.name
@@ -127,11 +127,10 @@ class _Builder:
         if rounded := sum(kind.member.type == FLOAT32 for kind in written_out):
             packing = Struct(f"{rounded}f")  # rounds them to float32
             self._globals.update({f"_pack_{rounded}": packing.pack, f"_unpack_{rounded}": packing.unpack})
-        self._run(definition, definition.folder, message_source(definition, kinds))
+        self._run(definition, message_source(definition, kinds))
         self._globals[name]._WEIGHT = weight
 
-    def _run(self, definition: Definition, kind: str, source: str) -> None:
-        self._globals[f"_support_{definition.name}"] = message.TypeSupport(kind, definition.full_name)
+    def _run(self, definition: Definition, source: str) -> None:
         self._globals[f"_definition_{definition.name}"] = definition
         self.source += "\n\n" if self.source else ""
         first_line = self.source.count("\n")

@@ -14,14 +14,6 @@ from .names import did_you_mean
 plain_text = str.__str__  # a plain str, even of an instance of a subclass
 
 
-@dataclass(frozen=True, slots=True)
-class TypeSupport:
-    """Stands where ROS keeps pointers to its C code: says that a class is an interface, of a kind (`msg`) and full name."""
-
-    kind: str
-    name: str
-
-
 class Unset:
     """The default of a constructor's argument that stands for a fresh value: no value that a program could pass."""
 
