@@ -242,11 +242,10 @@ def _boxes(nodes: list[NodeView]) -> tuple[dict[str, list[Box]], list[Arrow]]:
     for at, view in enumerate(nodes):
         box = Box(f"n{at}", [view.name], [f"{view.copies} nodes of this name"] if view.copies > 1 else [])
         columns["nodes"].append(box)
-        arrows += [Arrow(box, topics[name], inward=False) for name in view.uses["publishes"]]
-        arrows += [Arrow(box, topics[name], inward=True) for name in view.uses["hears"]]
-        arrows += [Arrow(box, services[name], inward=False, dashed=True) for name in view.uses["calls"]]
+        for use, used in {"publishes": topics, "hears": topics, "calls": services, "offers": services}.items():
+            inward, dashed = use in ("hears", "offers"), used is services
+            arrows += [Arrow(box, used[name], inward, dashed) for name in view.uses[use] if name in used]
         offers = view.uses["offers"]
-        arrows += [Arrow(box, services[name], inward=True, dashed=True) for name in offers if name in called]
         if waiting := [name for name in offers if name not in called]:
             shared = Box(f"w{at}", waiting, offers[waiting[0]] if len(waiting) == 1 else [])
             columns["services"].append(shared)

@@ -63,13 +63,10 @@ ON_A_ROBOT: Advice = (
 class Recorder(Recording):
     """Fills itself with what `node` (an rclpy Node, spun by its owner) hears.
 
-    `origin` (ns) is the moment that plots call 0 s; without it, that is now on the node's clock. `advice` is what to try
-    where nothing was heard.
+    `origin` (ns) is the moment that plots call 0 s. `advice` is what to try where nothing was heard.
     """
 
-    def __init__(self, node: Node, *, origin: int | None = None, advice: Advice = IN_A_LESSON) -> None:
-        if origin is None:
-            origin = node.get_clock().now().nanoseconds
+    def __init__(self, node: Node, *, origin: int, advice: Advice = IN_A_LESSON) -> None:
         super().__init__(origin=origin)
         self.node = node
         self._channels = self._make_channels(node, advice)

@@ -56,7 +56,7 @@ class RobotBackend:
         # Signals and logs stay as the notebook's own nodes have them.
         self._context.init(args=[], initialize_logging=False)
         self.node: Node = LabNode(self._context, self._hop)
-        self.recorder = Recorder(self.node, advice=ON_A_ROBOT)
+        self.recorder = Recorder(self.node, origin=self.node.get_clock().now().nanoseconds, advice=ON_A_ROBOT)
         self.board = ObstacleBoard(self.recorder)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)

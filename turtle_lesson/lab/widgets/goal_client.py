@@ -52,11 +52,6 @@ class Goal:
     """Robot time of the answer, s."""
 
     @property
-    def was_taken(self) -> bool:
-        """Whether the navigator set out for it, and did not lose it on the way."""
-        return self.state in ("on its way", "reached", "not reached")
-
-    @property
     def waits(self) -> bool:
         """Whether there is no answer yet."""
         return self.state in WAITING

@@ -35,9 +35,6 @@ FASTEST = "max"
 SHOWN = 60
 """How many of the newest goals the browser is told of."""
 
-CIRCLE, BOX = {"radius": 0.5}, {"width": 1.5, "height": 0.5}
-"""The sizes of a fresh obstacle, m."""
-
 ROOM = 0.8
 """A fresh obstacle leaves so much room around it where it can, m."""
 
@@ -181,7 +178,7 @@ class GoalPad(LiveWidget):
     def do_obstacle_add(self, shape: str) -> None:
         """Put a fresh circle or box where there is room."""
         x, y = self._free_place()
-        fresh: Obstacle = Box(x, y, **BOX) if shape == "box" else Circle(x, y, **CIRCLE)
+        fresh: Obstacle = Box(x, y, width=1.5, height=0.5) if shape == "box" else Circle(x, y, radius=0.5)
         self._put([*self.backend.board.obstacles, fresh], f"Added a {fresh}.")
 
     def do_obstacle_change(self, number: int, done: bool = True, **fields: float) -> None:

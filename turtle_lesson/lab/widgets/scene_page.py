@@ -91,7 +91,8 @@ def replay_page(scene: Scene) -> ScenePage:
         f"from {point(poses[0]['x'], poses[0]['y'])} m to {point(poses[-1]['x'], poses[-1]['y'])} m."
     )
     turtle, trail, growth = _run(poses)
-    flags, appear = _flags([goal for goal in recorder.goals if goal.was_taken], begin, end)
+    taken = [goal for goal in recorder.goals if goal.state in ("on its way", "reached", "not reached")]
+    flags, appear = _flags(taken, begin, end)
     clips = {scene_commands.TURTLE: turtle, **appear}
     animations = [  # one frame a second, so that a frame's number is its time
         {"path": f"/{path}", "clip": {"fps": 1, "name": "default", "tracks": tracks}} for path, tracks in clips.items()
