@@ -122,7 +122,7 @@ class Views:
         return self._widget(Scene)
 
     def plot_path(self, *, goal: Any = None) -> Picture:
-        """The way that the turtle went, on the map, from what /turtle1/pose said."""
+        """The way that the turtle went, on the map, from /turtle1/pose; `goal`: (x, y), (x, y, theta) or a list of these."""
         from ..lab.path import plot_path
 
         return plot_path(self._recording, goal=goal)
