@@ -195,13 +195,10 @@ def wait_for_end(process: Process, what: str) -> str:
         else:
             _play(world, rate, lambda: not process.alive)
     except SimulationError as error:
-        process.interrupt()
         return str(error)
-    except KeyboardInterrupt:
-        process.interrupt()
-        raise
     finally:
         if process.alive:
+            process.interrupt()
             process.kill()
     return ""
 
