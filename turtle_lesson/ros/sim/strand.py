@@ -250,7 +250,7 @@ class LoopAside:
         self.loop, self.hooks = asyncio._get_running_loop(), sys.get_asyncgen_hooks()
         self.task = None if self.loop is None else asyncio.current_task(self.loop)
         if self.loop is not None and self.task is not None:
-            _leave_task(self.loop, self.task)
+            asyncio._leave_task(self.loop, self.task)
         asyncio._set_running_loop(None)
         sys.set_asyncgen_hooks(None, None)
 
@@ -258,8 +258,4 @@ class LoopAside:
         asyncio._set_running_loop(self.loop)
         sys.set_asyncgen_hooks(*self.hooks)
         if self.loop is not None and self.task is not None:
-            _enter_task(self.loop, self.task)
-
-
-_tasks: Any = asyncio.tasks
-_enter_task, _leave_task = _tasks._enter_task, _tasks._leave_task
+            asyncio._enter_task(self.loop, self.task)
