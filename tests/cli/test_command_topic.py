@@ -209,10 +209,10 @@ def test_rosout_and_parameter_events_can_be_read(world: World) -> None:
 
 def test_parameter_events_as_recorded(world: World) -> None:
     """What is heard first is the node of `ros2 param set` itself, which has a parameter as every node has."""
-    call = parse(["topic", "echo", "--once", "/parameter_events", "--for", "2"])
+    verb, arguments = parse(["topic", "echo", "--once", "/parameter_events", "--for", "2"])
     out = io.StringIO()
     system.start(world, system.param_demo)
-    world.spawn(lambda: call.verb.main(call.arguments), name="ros2", stdout=out)
+    world.spawn(lambda: verb.main(arguments), name="ros2", stdout=out)
     world.sim.run_until(world.now + 1_000_000_000)
     type_in(world, "ros2 param set /param_demo speed 0.9")
     [recorded] = cases("parameter_events.txt")

@@ -44,16 +44,16 @@ def run(
     """
     errors = Errors(stderr)
     try:
-        call = parse(words[1:])
+        verb, arguments = parse(words[1:])
     except Stop as stop:
         return stop.print(stdout, errors)
-    if call.verb.in_cell:
-        call.arguments.stdin = stdin
+    if verb.in_cell:
+        arguments.stdin = stdin
         with contextlib.redirect_stdout(cast("TextIO", stdout)), contextlib.redirect_stderr(cast("TextIO", errors)):
-            return call.verb.main(call.arguments)
+            return verb.main(arguments)
 
     def main() -> None:
-        sys.exit(call.main())
+        sys.exit(_work(verb, arguments))
 
     if background:
         out, error = lasting(stdout, world.sim), lasting(stderr, world.sim)
@@ -65,10 +65,18 @@ def run(
         return 0
     process = world.spawn(main, name="ros2", argv=words, stdout=stdout, stderr=errors)
     process.state(Invocation).shown = stdout is sys.stdout
-    reason = wait_for_end(process, call.verb.prog)
+    reason = wait_for_end(process, verb.prog)
     if reason:
-        print(f"{call.verb.prog}: {reason}", file=errors)
+        print(f"{verb.prog}: {reason}", file=errors)
     return process.exit_code or 0
+
+
+def _work(verb: Verb, arguments: Namespace) -> int:
+    """Do a verb's work in the running process; its exit code, also after Ctrl-C."""
+    try:
+        return verb.main(arguments)
+    except KeyboardInterrupt:
+        return INTERRUPTED
 
 
 # -- commands in launch files --------------------------------------------------------------------------------------------
@@ -77,11 +85,11 @@ def run(
 def run_here(words: Sequence[str]) -> int:
     """Run one command as part of the running process, as a launch file does; what has no end goes on until Ctrl-C."""
     try:
-        call = parse(words[1:])
+        verb, arguments = parse(words[1:])
     except Stop as stop:
         return stop.print(sys.stdout, sys.stderr)
     current_process().state(Invocation).background = True
-    return call.main()
+    return _work(verb, arguments)
 
 
 def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
@@ -111,27 +119,12 @@ def commands_of_text(text: str) -> list[tuple[str, list[str]]]:
 def run_arguments(words: list[str]) -> Namespace:
     """The arguments of `ros2 run …`. UnknownCommand if it would complain about them."""
     try:
-        return parse(words).arguments
+        return parse(words)[1]
     except Stop as stop:
         raise UnknownCommand(stop.text) from None
 
 
 # -- which commands and verbs there are, and reading them --------------------------------------------------------------
-
-
-@dataclass
-class Call:
-    """A verb, and the arguments to run it with."""
-
-    verb: Verb
-    arguments: Namespace
-
-    def main(self) -> int:
-        """Do the verb's work in the running process; its exit code, also after Ctrl-C."""
-        try:
-            return self.verb.main(self.arguments)
-        except KeyboardInterrupt:
-            return INTERRUPTED
 
 
 @dataclass(frozen=True)
@@ -195,17 +188,16 @@ class Group:
     @property
     def text(self) -> str:
         """Its help: what it prints when it stands alone."""
-        lines = [self.usage, "", self.help, "", "options:"]
-        for option, text in (("-h, --help", "show this help and do nothing"), self.flag):
-            if option:
-                lines += [f"  {option:<20}  {text}"] if len(option) <= 20 else [f"  {option}", f"{'':24}{text}"]
+        lines = [self.usage, "", self.help, "", "options:", "  -h, --help            show this help and do nothing"]
+        if self.flag[0]:
+            lines += [f"  {self.flag[0]}", f"{'':24}{self.flag[1]}"]
         width = max(map(len, self.members))
         lines += ["", "Commands:", *(f"  {name:<{width}}  {each.help}" for name, each in self.members.items())]
         return "\n".join([*lines, "", f"  Call `{self.prog} <command> -h` for more detailed usage."])
 
 
-def parse(words: Sequence[str]) -> Call:
-    """Find what `ros2 <words>` asks for. Raises Stop if it asks for help, or is not understood."""
+def parse(words: Sequence[str]) -> tuple[Verb, Namespace]:
+    """The verb that `ros2 <words>` asks for, and its arguments. Raises Stop if it asks for help, or is not understood."""
     found: Group | Verb = ROS2
     rest, given = list(words), {}
     while isinstance(found, Group):
@@ -218,7 +210,7 @@ def parse(words: Sequence[str]) -> Call:
     for option, value in given.items():
         name = option.lstrip("-").replace("-", "_")
         setattr(arguments, name, value or getattr(arguments, name, False))
-    return Call(found, arguments)
+    return found, arguments
 
 
 def _unrecognized(words: Sequence[str], options: Iterable[str], takes_values: bool = False) -> Stop:
