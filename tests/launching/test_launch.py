@@ -58,7 +58,11 @@ def test_the_lessons_file_starts_three_nodes_as_on_a_terminal(
     ]
     assert Path(world.processes[0].target).as_posix() == f"{LIBEXEC}/navigator"
     assert handle.running
-    assert handle.names == ["navigator-1", "status_monitor-2", "obstacle_detector-3"]
+    assert [each.name for each in handle._service.processes] == [
+        "navigator-1",
+        "status_monitor-2",
+        "obstacle_detector-3",
+    ]
 
 
 def test_ctrl_c_ends_all_of_them_and_says_how_they_died(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -197,7 +201,7 @@ def test_a_python_file_can_be_started_without_a_package(tmp_path: Path) -> None:
     script = write(tmp_path, "print('hi')", "mine.py")
     world, handle = launch(tmp_path, f"Node(executable={str(script)!r}),")
     assert world.processes[0].target == script.resolve()
-    assert handle.names == ["mine.py-1"]
+    assert [each.name for each in handle._service.processes] == ["mine.py-1"]
 
 
 # -- parameters -------------------------------------------------------------------------------------------

@@ -62,7 +62,7 @@ def test_a_command_that_ends(world: World, begin: Launch, tmp_path: Path, capsys
         "[setter-2] Set parameter successful",
         "[INFO] [setter-2]: process has finished cleanly [pid N]",
     ]
-    assert handle.names == ["listener-1", "setter-2"]
+    assert [each.name for each in handle._service.processes] == ["listener-1", "setter-2"]
 
 
 def test_a_command_without_end_goes_on_until_the_launch_ends(

@@ -154,7 +154,7 @@ def test_a_node_gets_its_parameters_and_its_lines_get_its_name(
         "[ERROR] [talker-1]: process has died [pid 1002, exit code -2, cmd 'lib/demo/talker --ros-args "
         "-r __node:=bob -p period:=1.0 -p \"word:='it is: 5'\"'].".replace("\"word:='it is: 5'\"", "word:='it is: 5'"),
     ]
-    assert [process.exit_code for process in handle.processes] == [-2]
+    assert [each.process.exit_code for each in handle._service.processes] == [-2]
     run(world, 10)
     assert console(capsys, tmp_path) == []
 

@@ -100,7 +100,7 @@ def test_the_nodes_of_a_launch_come_up_one_after_the_other(capsys: pytest.Captur
     assert lesson.now == 0.9
     names = set(lesson._recording.node.get_node_names())
     assert {"navigator", "status_monitor", "obstacle_detector"} <= names
-    assert len(handle.processes) == 3 and all(process.alive for process in handle.processes)
+    assert len(handle._service.processes) == 3 and all(each.alive for each in handle._service.processes)
 
 
 @pytest.mark.parametrize("seed", [0, 1, 17])
@@ -121,7 +121,7 @@ def test_a_controller_meets_no_goal_and_no_timer_before_the_first_pose(
     handle = launch(lesson, tmp_path, "".join(nodes if first == "turtlesim" else nodes[::-1]) + node("sender"))
     lesson.run(2)
     assert said(capsys) == [f"controller-{1 if first == 'controller' else 2}] 2.5 m to go"]
-    assert all(process.alive for process in handle.processes)
+    assert all(each.alive for each in handle._service.processes)
 
 
 def test_small_commands_are_up_at_once_and_ros2_takes_its_turn(
@@ -171,7 +171,7 @@ def test_ctrl_c_ends_programs_that_are_still_coming_up(
     assert handle.running and said(capsys) == ["up-1] up at 0.3"]
     handle.stop()
     assert not handle.running
-    assert [process.exit_code for process in handle.processes] == [-2, -2, -2]
+    assert [each.process.exit_code for each in handle._service.processes] == [-2, -2, -2]
     lesson.run(2)
     assert not [line for line in said(capsys) if "up at" in line]
 
@@ -206,8 +206,8 @@ def test_ros2_run_is_up_at_once(lesson: Lesson) -> None:
 def order_of_the_system(seed: int, start_order: str = "shuffled") -> list[str]:
     lesson = start(seed=seed, simulator=False, start_order=start_order)
     handle = lesson.launch("robot_controller", "start_system.launch.py")
-    assert lesson.now == 0.9 and all(process.alive for process in handle.processes)
-    return handle.names
+    assert lesson.now == 0.9 and all(each.alive for each in handle._service.processes)
+    return [each.name for each in handle._service.processes]
 
 
 def test_the_seed_decides_about_a_shuffled_order_and_names_stay_as_written() -> None:

@@ -28,7 +28,6 @@ from ..ament.index import LaunchedPackages, seeing
 from ..ament.package import NotHereError
 from ..idl.names import did_you_mean
 from ..runtime.world import World, run_for
-from ..sim.process import Process
 from ..sim.simulation import NANOSECONDS
 from .errors import LaunchError, as_launch_error, learners_cause
 from .processes import RosHelper, RunningProcess
@@ -238,7 +237,7 @@ class LaunchService:
 
 
 class LaunchHandle:
-    """A running launch: its processes, and how to stop it."""
+    """A running launch, and how to stop it. It is shown with the names of the programs that run, such as `navigator-1`."""
 
     def __init__(self, service: LaunchService, name: str) -> None:
         self._service: LaunchService | Any = service
@@ -248,16 +247,6 @@ class LaunchHandle:
     def _let_go(self) -> None:
         """Keep nothing of the world that is closed: Jupyter's `Out` may keep this handle for long."""
         self._service = SimpleNamespace(processes=[], running=False)
-
-    @property
-    def processes(self) -> list[Process]:
-        """Its processes in the order of their start, dead ones included."""
-        return [entry.process for entry in self._service.processes]
-
-    @property
-    def names(self) -> list[str]:
-        """What its processes are called in the output, such as `navigator-1`."""
-        return [entry.name for entry in self._service.processes]
 
     @property
     def running(self) -> bool:
