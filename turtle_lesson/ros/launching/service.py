@@ -47,7 +47,7 @@ class LaunchService:
         self.numbers = count(1)
         """What is after the dash in `navigator-1`."""
         self._waiting: list[ExecuteProcess] = []
-        self._ending: list[RunningProcess] | None = None
+        self._ending = False
         self._timers = 0
         self._helper: RosHelper | None = None
         self._warnings: set[str] = set()
@@ -67,28 +67,25 @@ class LaunchService:
 
     def ended(self, process: RunningProcess) -> None:
         """A process is dead: say how, and go on from there."""
-        if self._ending is not None:
-            self._ending.append(process)
-            return
-        process.report_end()
-        self.call_later(0, process.after_end)  # leave the dying process first
+        if not self._ending:
+            process.report_end()
+            self.call_later(0, process.after_end)  # leave the dying process first
 
     def _end_processes(self, *, said: bool) -> None:
         """Interrupt all processes, and see to it that they end. How they ended is said after all their output."""
         alive = [process for process in self.processes if process.alive]
         for process in reversed(alive) if said else ():
             process.announce("SIGINT")
-        self._ending = []
+        self._ending = True
         for process in alive:
-            if process.alive:
-                process.process.interrupt()
-        ended, self._ending = self._ending, None
-        for process in ended:
-            process.report_end()
-            process.after_end()
+            process.process.interrupt()
+        self._ending = False
         for process in alive:
             if process.alive:
                 process.terminate_later()
+            else:
+                process.report_end()
+                process.after_end()
 
     def call_later(self, seconds: float, function: Callable[[], None]) -> None:
         """Have a function called after some robot time, within this launch. Raises ValueError if there is no such time."""

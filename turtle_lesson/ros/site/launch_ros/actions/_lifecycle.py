@@ -111,9 +111,6 @@ class LifecycleNode(Node):
         super().execute(context)
         helper = context._host.ros_helper()
 
-        def changed(msg: TransitionEvent) -> None:
-            context.emit_event_sync(StateTransition(action=self, msg=msg))
-
         def is_asked(event: Event) -> bool:
             return isinstance(event, ChangeState) and event.lifecycle_node_matcher(self)
 
@@ -127,7 +124,7 @@ class LifecycleNode(Node):
 
             helper.change_state(self.node_name, event.transition_id, answered)
 
-        helper.watch(self.node_name, changed)
+        helper.watch(self.node_name, lambda msg: context.emit_event_sync(StateTransition(action=self, msg=msg)))
         context.register_event_handler(EventHandler(matcher=is_asked, entities=change_state))
         if text_of(context, self.__autostart).lower() not in {"true", "1"}:
             return None
