@@ -278,11 +278,9 @@ def _how_to_pace(low: float, high: float, mean: float, hz: float, uneven: bool) 
 
 
 @expectation("{expected}")
-def messages(
-    probe: Probe, topic: str, type_name: str, expected: str, judge: Callable[[list[Heard]], Seen], seconds: float = 2.0
-) -> Seen:
-    """Whatever a function judges of the messages that come in some seconds (at least one, or they are not looked at)."""
-    return judge(some(probe, topic, type_name, seconds))
+def messages(probe: Probe, topic: str, type_name: str, expected: str, judge: Callable[[list[Heard]], Seen]) -> Seen:
+    """Whatever a function judges of the messages that come in a second (at least one, or they are not looked at)."""
+    return judge(some(probe, topic, type_name, 1.0))
 
 
 def some(probe: Probe, topic: str, type_name: str, seconds: float) -> list[Heard]:
