@@ -66,20 +66,16 @@ def install_scripts(folder: Path) -> str | None:
 
 def main(folder: str, answer: str) -> None:
     """Run the folder's setup.py; the file `answer` gets `{"setup": …}` or `{"error": …}`."""
-    given: list[dict[str, Any]] = []
     result: dict[str, Any] = {}
     os.chdir(folder)
     sys.path.insert(0, folder)
     sys.argv = ["setup.py"]
-    _put_stand_ins(given)
+    _put_stand_ins(result)
     try:
         source = Path("setup.py").read_bytes()
         exec(compile(source, "setup.py", "exec"), {"__name__": "__main__", "__file__": "setup.py"})
     except BaseException as error:
         result["error"] = _text(error)
-    else:
-        if given:
-            result["setup"] = given[-1]
     Path(answer).write_text(json.dumps(result, default=_plain), encoding="utf-8")
 
 
@@ -87,11 +83,11 @@ def _plain(value: Any) -> Any:
     return sorted(value, key=str) if isinstance(value, (set, frozenset)) else str(value)
 
 
-def _put_stand_ins(given: list[dict[str, Any]]) -> None:
-    """Have `import setuptools` and `distutils`, which setuptools brings, find the stand-ins."""
+def _put_stand_ins(result: dict[str, Any]) -> None:
+    """Have `import setuptools` and `distutils`, which setuptools brings, find the stand-ins; `setup` notes what it is given."""
 
     def setup(**options: Any) -> None:
-        given.append(options)
+        result["setup"] = options
 
     setup.__qualname__ = "setup"
     finders = {"find_packages": find_packages, "find_namespace_packages": find_packages}
