@@ -17,7 +17,7 @@ from .package import BuildFailure, filled
 from .setup_py import SetupError, install_scripts, read_setup
 
 SITE = PYTHON_FOLDERS["python"]
-_ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*(\w[\w.]*)\s*:\s*(\w[\w.]*)\s*(\[.*\])?\s*")
+_ENTRY = re.compile(r"\s*([\w.-]+)\s*=\s*([\w.]+)\s*:\s*([\w.]+)\s*(\[.*\])?\s*")
 _EXAMPLES: dict[str, list[Any] | dict[str, Any]] = {
     "packages": ["my_package"],
     "package_dir": {"": "src"},
