@@ -52,11 +52,10 @@ def find_launch_file(world: World, package: str, file_name: str) -> Path:
     """The launch file of this name of a package. Raises LaunchError in `ros2 launch`'s words, with what to try."""
     try:
         return index.find_launch_file(world.packages, package, file_name)
-    except PackageNotFoundError as error:
-        reason = f"Package '{package}' not found: {error.text!r}"
+    except (PackageNotFoundError, index.LaunchFileNotFoundError) as error:
+        has_package = isinstance(error, index.LaunchFileNotFoundError)
+        reason = error.text if has_package else f"Package '{package}' not found: {error.text!r}"
         raise LaunchError(reason, None, error.hint) from None
-    except index.LaunchFileNotFoundError as error:
-        raise LaunchError(error.text, None, error.hint) from None
 
 
 def _place_of(error: BaseException, written_at: Place | None) -> Place | None:

@@ -10,6 +10,7 @@ import math
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
+from functools import cached_property
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -49,7 +50,6 @@ class LaunchService:
         self._waiting: list[ExecuteProcess] = []
         self._ending = False
         self._timers = 0
-        self._helper: RosHelper | None = None
         self._warnings: set[str] = set()
         self._left_out: dict[LaunchDescriptionEntity, str] = {}
         self.failed = False
@@ -99,11 +99,10 @@ class LaunchService:
         self._timers += 1
         self.world.sim.call_later(round(seconds * NANOSECONDS), due)
 
+    @cached_property
     def ros_helper(self) -> RosHelper:
         """The node of launch's own; it is made when it is first asked for."""
-        if self._helper is None:
-            self._helper = RosHelper(self)
-        return self._helper
+        return RosHelper(self)
 
     def settle_soon(self) -> None:
         """Have waiting starts and events handled at this instant."""
@@ -186,8 +185,8 @@ class LaunchService:
             with seeing(LaunchedPackages(self.world.packages)), redirect_stdout(self.world.sim.cell_stdout):
                 yield
         finally:
-            if self._helper is not None and not self.running:
-                self._helper.close()
+            if "ros_helper" in vars(self) and not self.running:
+                self.ros_helper.close()
 
     def _settle(self) -> None:
         while self._waiting or self.context._event_queue:

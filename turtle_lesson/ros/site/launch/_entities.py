@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from traceback import walk_stack
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
 from turtle_lesson.ros.sim.errors import is_ours
@@ -126,11 +127,9 @@ Place = tuple[str, int]
 
 def written_at() -> Place | None:
     """The file and line of the innermost caller that is not part of the simulation's own code."""
-    frame = sys._getframe(1)
-    while frame is not None:
+    for frame, line in walk_stack(sys._getframe(1)):
         if not is_ours(frame.f_code.co_filename):
-            return frame.f_code.co_filename, frame.f_lineno
-        frame = frame.f_back  # type: ignore[assignment]
+            return frame.f_code.co_filename, line
     return None
 
 

@@ -7,14 +7,14 @@ from typing import Any, get_args, get_origin
 from turtle_lesson.ros.runtime.bounded_yaml import safe_load
 
 from ._context import LaunchContext
-from ._entities import Substitution, normalize_to_list_of_substitutions, perform_substitutions, text_of
+from ._entities import normalize_to_list_of_substitutions, perform_substitutions, text_of
 
 __all__ = ["normalize_to_list_of_substitutions", "perform_substitutions"]
 
 
 def perform_text_as(context: LaunchContext, value: Any, kind: type) -> Any:
     """A plain value as it is; a substitution's text made a value of `kind`. Raises TypeError if it is no such value."""
-    if isinstance(value, kind) and not isinstance(value, Substitution):
+    if isinstance(value, kind):
         return value
     if kind is float and isinstance(value, int) and not isinstance(value, bool):
         return float(value)

@@ -58,9 +58,8 @@ def value_of(context: LaunchContext, value: Any) -> Any:
         try:
             return uniform(found) if isinstance(found, list) else value_of(context, found)
         except TypeError as error:
-            raise explained(
-                error, f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text."
-            ) from None
+            hint = f"The text is {text!r}; ParameterValue(…, value_type=str) keeps it as text."
+            raise explained(error, hint) from None
     if any(isinstance(item, list | tuple) for item in value):
         value = [safe_load(text_of(context, item)) for item in value]
     return uniform(list(value))

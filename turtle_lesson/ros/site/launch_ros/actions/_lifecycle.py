@@ -109,7 +109,7 @@ class LifecycleNode(Node):
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Have the node started, and listen to it."""
         super().execute(context)
-        helper = context._host.ros_helper()
+        helper = context._host.ros_helper
 
         def is_asked(event: Event) -> bool:
             return isinstance(event, ChangeState) and event.lifecycle_node_matcher(self)
