@@ -10,8 +10,10 @@ import time
 from argparse import Namespace
 from collections.abc import Callable
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from rclpy.action import ActionClient
+from rclpy.action.client import ClientGoalHandle
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -34,10 +36,6 @@ from .verb import (
     suggest,
     verb,
 )
-
-if TYPE_CHECKING:
-    from rclpy.action.client import ClientGoalHandle
-
 
 LONGEST_ANSWER = 600.0
 """How long, in s of robot time, an answer may take unless `--for` tells otherwise. The real tools wait forever."""
@@ -201,8 +199,6 @@ def send_goal(args: Namespace) -> None:
     kind = class_of(args.action_type, "action")
     values = read_yaml(args.values)
     with direct_node(args, f"{HIDDEN_PREFIX}_send_goal_{args.action_type.replace('/', '_')}") as node:
-        from rclpy.action import ActionClient
-
         client = ActionClient(node, kind, expanded(node, args.action_name, is_service=True))
         goal, name = kind.Goal(), client._name
         populate(goal, values, is_goal=True)

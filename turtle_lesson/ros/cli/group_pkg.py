@@ -215,10 +215,9 @@ def _without_comment(line: str) -> str:
 def _proto(args: Namespace) -> None:
     """Print an interface with its default values, to fill in."""
     from rosidl_runtime_py import message_to_yaml
-    from rosidl_runtime_py.utilities import get_interface
 
     _check(args.type)
-    made: Any = get_interface(args.type)
+    made: Any = registry.get(args.type)
     for part in ("Request", "Goal"):
         made = getattr(made, part, made)
     text = message_to_yaml(made())

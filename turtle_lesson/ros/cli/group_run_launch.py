@@ -21,7 +21,7 @@ from ..sim.errors import shown_path
 from ..sim.process import Process
 from .arguments import Argument, arg, cut, duration, either, flag
 from .group_pkg import not_found, path_of
-from .jobs import LastSignal, jobs, lasting
+from .jobs import jobs, lasting
 from .verb import CommandError, verb
 
 LET_PASS = "let this much robot time pass before {} returns (only here)"
@@ -80,15 +80,9 @@ def reader_of(text: str | None) -> StringIO | None:
 
 
 def _say_how_it_ended(process: Process) -> None:
-    if code := _status(process):
+    if code := process.exit_code:
         failure = f"Process exited with failure {code}"
         print(f"[ros2run]: {failure if code > 0 else SIGNAL_TEXTS.get(code, f'Signal {-code}')}", file=process.stdout)
-
-
-def _status(process: Process) -> int:
-    """The exit code of a process that has ended, as its parent sees it."""
-    code = process.exit_code or 0
-    return -15 if code == -9 and process.state(LastSignal).name == "TERM" else code
 
 
 NOTHING = "accepted, but without effect here"
@@ -183,5 +177,5 @@ def leave(what: Process | LaunchHandle, words: str, seconds: float | None) -> in
         return 0
     if not isinstance(what, Process):
         return 0  # that of `ros2 launch`, however its programs ended
-    code = _status(what)
+    code = what.exit_code or 0
     return code if code >= 0 else 256 + code

@@ -57,13 +57,6 @@ class Job:
         return self.what.alive if isinstance(self.what, Process) else self.what.running
 
 
-@dataclass
-class LastSignal:
-    """The signal that ended a process, if the terminal sent one."""
-
-    name: str = ""
-
-
 def send(what: Process | LaunchHandle, name: str) -> None:
     """Send a process INT (Ctrl-C), TERM or KILL; each of them stops a launch."""
     if not isinstance(what, Process):
@@ -71,8 +64,7 @@ def send(what: Process | LaunchHandle, name: str) -> None:
     elif name == "INT":
         what.interrupt()
     else:
-        what.state(LastSignal).name = name
-        what.kill()
+        what.kill(-SIGNALS[name])
 
 
 def jobs(world: World) -> Jobs:
