@@ -33,26 +33,22 @@ def parse(folder: str, package: str, name: str, text: str, file: str | None = No
         else:
             parts[-1].append((number, line))
     if len(parts) != len(PARTS[folder]):
-        raise _wrong_separators(folder, len(parts)).locate(interface=f"{package}/{folder}/{name}", file=file)
+        if folder == "srv":
+            unique, error = "unique " if len(parts) > 1 else "", "InvalidServiceSpecification"
+            reason = f"Could not find {unique}separator '---' between request and response"
+            hint = "A service is its request, one line of exactly three dashes, its response"
+        else:
+            reason, error = (
+                "Number of '---' separators nonconformant with action definition",
+                "InvalidActionSpecification",
+            )
+            hint = "An action is its goal, its result and its feedback, with a line of three dashes between"
+        raise InvalidDefinition(reason, error, hint=hint).locate(interface=f"{package}/{folder}/{name}", file=file)
     messages = tuple(
         _parse_message(folder, package, f"{name}_{part}", own, "\n".join(line for _, line in own), file)
         for part, own in zip(PARTS[folder], parts, strict=True)
     )
     return Definition(package, folder, name, text, file, parts=messages)
-
-
-def _wrong_separators(folder: str, parts: int) -> InvalidDefinition:
-    if folder == "srv":
-        return InvalidDefinition(
-            f"Could not find {'unique ' if parts > 1 else ''}separator '---' between request and response",
-            "InvalidServiceSpecification",
-            hint="A service is its request, one line of exactly three dashes, its response",
-        )
-    return InvalidDefinition(
-        "Number of '---' separators nonconformant with action definition",
-        "InvalidActionSpecification",
-        hint="An action is its goal, its result and its feedback, with a line of three dashes between",
-    )
 
 
 def _parse_message(folder: str, package: str, name: str, lines: list[Line], text: str, file: str | None) -> Definition:

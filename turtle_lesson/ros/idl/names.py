@@ -61,8 +61,11 @@ def check(what: str, name: str) -> None:
         hint = _type_hint(name)
     elif what == "constant":
         hint = "Constants are in capitals; a default value is written without '='"
+    elif name.endswith((",", ";")):
+        hint = "Write one field a line, with nothing after its name but a default value"
     else:
-        hint = _lower_case_hint(name)
+        better = re.sub(r"_+", "_", re.sub(r"\W", "_", module_name(name))).strip("_")
+        hint = f"Try '{better}'" if LOWER_CASE.fullmatch(better) else ""
     raise InvalidDefinition(reason, "InvalidResourceName" if what in ("package", "message") else "NameError", hint=hint)
 
 
@@ -115,13 +118,6 @@ def _slips(one: str, two: str) -> int:
                 least = min(least, last[j - 2] + 1)
             row.append(least)
     return row[-1]
-
-
-def _lower_case_hint(name: str) -> str:
-    if name.endswith((",", ";")):
-        return "Write one field a line, with nothing after its name but a default value"
-    better = re.sub(r"_+", "_", re.sub(r"\W", "_", module_name(name))).strip("_")
-    return f"Try '{better}'" if LOWER_CASE.fullmatch(better) else ""
 
 
 def _type_hint(name: str) -> str:
