@@ -128,14 +128,18 @@ MOST = 2**31 - 1
 """The greatest whole number that a command takes."""
 
 
-def bounded(name: str, least: float, most: float) -> Callable[[str], float]:
-    """A type of arguments, called `name` in errors as argparse does: numbers within these bounds."""
+def bounded(name: str, least: float, most: float, kind: type = float, refusal: str = "") -> Callable[[str], Any]:
+    """A type of arguments, called `name` in errors as argparse does: numbers of a kind within these bounds.
 
-    def read(text: str) -> float:
+    All else is refused with the text `refusal`, {} being the argument, or else with the bounds.
+    """
+    refusal = refusal or f"invalid {name} value: '{{}}'\nIt must be a number from {least:g} to {most:g}"
+
+    def read(text: str) -> Any:
         with suppress(ValueError):
-            if least <= (value := float(text)) <= most:
+            if least <= (value := kind(text)) <= most:
                 return value
-        raise ArgumentTypeError(f"invalid {name} value: '{text}'\nIt must be a number from {least:g} to {most:g}")
+        raise ArgumentTypeError(refusal.format(text))
 
     return read
 
@@ -149,22 +153,9 @@ stretch = bounded("positive_float", 1e-9, LONGEST)
 frequency = bounded("positive_float", 1 / LONGEST, 10_000.0)
 """How often a second; more often than the most no robot could."""
 
-
-def whole(least: int, refusal: str) -> Callable[[str], int]:
-    """A type of arguments: whole numbers, none below `least`. All else is refused with this text, {} being the argument."""
-
-    def read(text: str) -> int:
-        with suppress(ValueError):
-            if least <= (value := int(text)) <= MOST:
-                return value
-        raise ArgumentTypeError(refusal.format(text))
-
-    return read
-
-
-positive_int = whole(1, "value must be a positive integer")
-unsigned_int = whole(0, "value must be non-negative integer")
-depth = whole(-MOST, "invalid int value: '{}'")
+positive_int = bounded("int", 1, MOST, int, "value must be a positive integer")
+unsigned_int = bounded("int", 0, MOST, int, "value must be non-negative integer")
+depth = bounded("int", -MOST, MOST, int, "invalid int value: '{}'")
 """The length of a queue; 0 or less is accepted, and without effect."""
 
 
