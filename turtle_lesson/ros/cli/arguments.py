@@ -36,14 +36,9 @@ class Stop(Exception):
         return self.code
 
 
-def printable(text: str) -> str:
-    """A text whose control characters are named."""
-    return "".join(char if char.isprintable() or char in "\n\t" else repr(char)[1:-1] for char in text)
-
-
 def cut(text: str, limit: int = 1500) -> str:
-    """A text that is fit to be printed: not endless, and without control characters."""
-    shown = printable(text[:limit])
+    """A text that is fit to be printed: not endless, and its control characters are named."""
+    shown = "".join(char if char.isprintable() or char in "\n\t" else repr(char)[1:-1] for char in text[:limit])
     return shown if len(text) <= limit else f"{shown[:60]}… ({len(text)} characters)"
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -103,11 +102,6 @@ class CellErrors(_Stream):
         return len(text)
 
 
-def cell_streams() -> tuple[TextIO, CellErrors]:
-    """The running cell's stdout and stderr."""
-    return sys.stdout, CellErrors(sys.stderr, sys.stdout)
-
-
 class Errors(_Stream):
     """A command's stderr: what was typed is repeated in it, so endless lines are cut and control characters named."""
 
@@ -175,7 +169,6 @@ def options(words: list[str], known: str, example: str = "", least: int = 1) -> 
 # They are the notebook's own variables, which each process has a copy of when it begins.
 
 _ASSIGNMENT = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
-_UNQUOTED = re.compile(r"(?<!\\)\$(?:(\w+)|\{(\w+)\})")
 
 
 def export(terminal: Terminal, words: list[str]) -> int:
@@ -224,8 +217,3 @@ def set_for_now(variables: dict[str, str]) -> Iterator[None]:
         for name in variables:
             os.environ.pop(name, None)
         os.environ.update(before)
-
-
-def with_values(pattern: str) -> str:
-    """A word in which `$NAME` and `${NAME}` outside of quotes are replaced; nothing stands for one that is not set."""
-    return _UNQUOTED.sub(lambda found: os.environ.get(found[1] or found[2], ""), pattern)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ..runtime.world import World
 from ..sim.process import Output
-from .jobs import lasting, with_values
+from .jobs import lasting
 
 # -- words and signs -------------------------------------------------------------------------------------------------
 # The rules are those of POSIX's shells, without what this simulation leaves out: substitutions, braces and what is
@@ -155,12 +155,16 @@ def pipelines(found: Sequence[Token]) -> Iterator[tuple[str, list[Command]]]:
 
 # -- what a word stands for --------------------------------------------------------------------------------------------
 
+_VARIABLE = re.compile(r"(?<!\\)\$(?:(\w+)|\{(\w+)\})")
+"""`$NAME` or `${NAME}` outside of quotes."""
+
 
 def expand(word: Word, *, home: Path, exit_code: int) -> list[str]:
     """The words that a word stands for: `~`, `$?`, `$NAME` and patterns are replaced, all else stays as it is typed."""
     if word.text == word.pattern == "$?":
         return [str(exit_code)]
-    if "$" in word.pattern and (text := with_values(word.pattern)) != word.pattern:
+    text = _VARIABLE.sub(lambda found: os.environ.get(found[1] or found[2], ""), word.pattern)
+    if text != word.pattern:
         return [unquoted] if (unquoted := re.sub(r"\\(.)", r"\1", text)) else []
     if word.text == word.pattern and (word.text == "~" or word.text.startswith("~/")):
         return [str(home) + word.text[1:]]

@@ -22,7 +22,7 @@ from ..runtime.world import World
 from . import terminal
 from .arguments import cut
 from .cells import advice
-from .jobs import Terminal, before_a_command, cell_streams, export, set_for_now
+from .jobs import CellErrors, Terminal, before_a_command, export, set_for_now
 from .run_command import run as run_ros2
 from .script import Command, ShellSyntaxError, Word, expand, pipelines, run_script, script_of, tokens
 from .verb import INTERRUPTED
@@ -156,4 +156,4 @@ def shell_of(world: World) -> Shell:
 def run_line(world: World, script: str) -> int:
     """Run a script in a world, in the running cell, and return the exit code of its last command."""
     sys.stdout.flush()
-    return shell_of(world).run(script, *cell_streams())
+    return shell_of(world).run(script, sys.stdout, CellErrors(sys.stderr, sys.stdout))
