@@ -21,7 +21,7 @@ from ..status_and_scan import label_beside, spread
 from ..words import count, enumerated, number, suggestion, within
 from .backend import Link
 from .live_widget import LiveWidget, pack
-from .message_fields import Kind, kinds_of
+from .message_fields import FLOATS, WHOLE, Kind, kinds_of
 
 KEPT = 20_000
 """Numbers that are kept of a curve: more than five minutes of a turtle's pose."""
@@ -93,7 +93,7 @@ def steps_to_number(topic: str, type_name: str, rest: str) -> list[Step]:
         if name not in below:
             raise ValueError(f'{kind} has no field "{step}". {suggestion(str(step), below)}')
         kind, walked = below[name], f"{walked}[{step}]" if isinstance(step, int) else f"{walked}/{step}"
-    if not kind.is_number:
+    if kind.array or kind.base not in FLOATS | WHOLE | {"boolean"}:
         ways = enumerated(f"{walked}/{name}".replace("/[", "[") for name in _below(kind))
         hint = f": try {ways}" if _below(kind) else ", which cannot be drawn as a curve"
         raise ValueError(f"{walked} is not a number but a {kind}{hint}")

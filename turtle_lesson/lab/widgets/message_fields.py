@@ -42,11 +42,6 @@ class Kind:
         """Whether a value, or each element, has fields of its own."""
         return "/" in self.base
 
-    @property
-    def is_number(self) -> bool:
-        """Whether it is one number, or true and false, that can be drawn as one."""
-        return not self.array and self.base in WHOLE | FLOATS | {"boolean"}
-
     def __str__(self) -> str:
         """As a .msg file writes it: "float64[<=3]"."""
         return NAMES.get(self.base, self.base) + self.array
