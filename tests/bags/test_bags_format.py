@@ -152,10 +152,15 @@ def test_channels_have_the_metadata_of_rosbag2_in_the_data_and_in_the_summary(mc
     chunked = [record for chunk in found if isinstance(chunk, Chunk) for record in breakup_chunk(chunk)]
     assert [record for record in chunked if isinstance(record, Schema)] == schemas
     assert [record for record in chunked if isinstance(record, Channel)] == channels
+    hashes = {
+        each["topic_metadata"]["name"]: each["topic_metadata"]
+        for each in metadata_of(mcap)["topics_with_message_count"]
+    }
     for channel, profiles in zip(channels, ([PROFILE], None), strict=True):
         assert channel.message_encoding == "cdr"
-        assert channel.metadata.keys() == {"offered_qos_profiles"}
+        assert channel.metadata.keys() == {"offered_qos_profiles", "topic_type_hash"}
         assert yaml.safe_load(channel.metadata["offered_qos_profiles"]) == profiles
+        assert channel.metadata["topic_type_hash"] == hashes[channel.topic]["type_description_hash"]
 
 
 def test_chunks_are_small_checked_and_indexed_and_the_statistics_are_right(mcap: Path) -> None:

@@ -2,7 +2,8 @@
 
 `rosbags` writes the bytes (format version 8: Humble and all later releases read it, and Humble cannot read 9, in which
 rosbag2_storage's yaml.hpp makes lists of the offered profiles). Added to it here: the real name of the file
-(`run_0.mcap`), and checksums, without which damage cannot be noticed.
+(`run_0.mcap`), the hash of each topic's type in an MCAP file (rosbag2_storage_mcap's `topic_type_hash`), and checksums,
+without which damage cannot be noticed.
 
 A schema is a message's definition and all that it is made of. Facts: rosbag2_cpp's
 message_definitions/local_message_definition_source.cpp and https://mcap.dev/spec/registry (encoding `ros2msg`): the definition
@@ -17,6 +18,7 @@ import sqlite3
 import weakref
 import zlib
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -87,11 +89,21 @@ class BagWriter:
 def _open(folder: Path, storage: str) -> Any:
     """A writer of rosbags, opened: the folder is there now."""
     from rosbags.rosbag2 import StoragePlugin, Writer, WriterError
-    from rosbags.rosbag2.storage_mcap import McapWriter
+    from rosbags.rosbag2.storage_mcap import McapWriter, write_channel, write_string
     from rosbags.rosbag2.storage_sqlite3 import Sqlite3Writer
 
     class CheckedMcapWriter(McapWriter):
-        """Writes smaller chunks, each with its checksum, which McapWriter leaves out."""
+        """Writes smaller chunks, each with its checksum, and the hash of each topic's type: McapWriter leaves them out."""
+
+        def add_connection(self, connection: Connection, offered_qos_profiles: str) -> None:
+            place = self.chunk.bio.tell()
+            super().add_connection(connection, offered_qos_profiles)
+            channel, noted = self.channels.pop(), BytesIO()
+            write_string(noted, "topic_type_hash")
+            write_string(noted, connection.digest)
+            self.channels.append(channel._replace(metadata=channel.metadata + noted.getvalue()))
+            self.chunk.bio.seek(place)  # what was written there is shorter
+            write_channel(self.chunk.bio, self.channels[-1], self.schemas)
 
         def close_chunk(self) -> None:
             start, checksum = self.bio.tell(), zlib.crc32(self.chunk.bio.getvalue())
