@@ -11,15 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from interface_cases import (
-    ROBOT_CONTROLLER,
-    any_messages,
-    built_in,
-    find_class,
-    message_class,
-    recorded,
-    write_package,
-)
+from interface_cases import ROBOT_CONTROLLER, any_messages, built_in, find_class, message_class, recorded, write_package
 
 from turtle_lesson.ros.idl.message import (
     Array,

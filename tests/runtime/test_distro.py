@@ -31,14 +31,7 @@ from std_msgs.msg import Float32, String
 
 from turtle_lesson import start
 from turtle_lesson.ros import distro
-from turtle_lesson.ros.distro import (
-    DURATION_ARITHMETIC,
-    EXECUTOR_AS_CONTEXT,
-    MESSAGE_INFO,
-    RELEASES,
-    Release,
-    changes,
-)
+from turtle_lesson.ros.distro import DURATION_ARITHMETIC, EXECUTOR_AS_CONTEXT, MESSAGE_INFO, RELEASES, Release, changes
 from turtle_lesson.ros.runtime.world import World, open_world
 
 DIFFERENCES = Path(distro.__file__).with_name("DIFFERENCES.md")

@@ -23,12 +23,7 @@ from rclpy._ros_args import (
     tree,
     value_of,
 )
-from rclpy.exceptions import (
-    InvalidParameterTypeException,
-    RCLError,
-    RCLInvalidROSArgsError,
-    UnknownROSArgsError,
-)
+from rclpy.exceptions import InvalidParameterTypeException, RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.utilities import remove_ros_args

@@ -7,13 +7,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import (
-    FIRST_COMPLETED,
-    ThreadPoolExecutor,
-    TimeoutError,
-    as_completed,
-    wait,
-)
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, TimeoutError, as_completed, wait
 from pathlib import Path
 from typing import Any
 

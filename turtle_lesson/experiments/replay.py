@@ -30,19 +30,7 @@ from ..ros.sim.stepped_call import SteppedCall
 from ..ros.stdlib.ownership import Notebook
 from ..session import views
 from ..session.lesson import LONGEST_RUN, Lesson, check_seconds
-from .one_run import (
-    OK,
-    Ending,
-    ExperimentError,
-    Run,
-    Setting,
-    Tail,
-    call_in,
-    forget_folder,
-    load,
-    open_run,
-    unpack,
-)
+from .one_run import OK, Ending, ExperimentError, Run, Setting, Tail, call_in, forget_folder, load, open_run, unpack
 
 PROGRESS = "TURTLE_LESSON_PROGRESS"
 

@@ -13,13 +13,7 @@ from ..idl.names import did_you_mean
 from ..idl.registry import Package
 from ..sim.errors import shown_path
 from .cmake import Command, compiled, evaluate
-from .cmake_commands import (
-    InterfaceCheck,
-    files_to_install,
-    first_line,
-    install_items,
-    interface_items,
-)
+from .cmake_commands import InterfaceCheck, files_to_install, first_line, install_items, interface_items
 from .index import CMAKE_COMMANDS, CMAKE_PACKAGES, COMMANDS_OF, PYTHON_PACKAGES, package_hint, why_not_here
 from .install_tree import PYTHON_FOLDERS, Environment, Item, Outcome, check_targets, names_in, prefix_of, with_hint
 from .manifest import Found, faults_in

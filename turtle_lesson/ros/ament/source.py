@@ -21,15 +21,7 @@ from ..idl.registry import Registry, registry
 from ..runtime.world import World
 from ..sim.errors import shown_path
 from .index import CMAKE_PACKAGES, PYTHON_PACKAGES, is_launch_file
-from .install_tree import (
-    LAYOUT,
-    PYTHON_FOLDERS,
-    SETUP_FILES,
-    Environment,
-    Outcome,
-    installed_names,
-    read_installed,
-)
+from .install_tree import LAYOUT, PYTHON_FOLDERS, SETUP_FILES, Environment, Outcome, installed_names, read_installed
 from .manifest import Found, build_type_hint, discover, read_found
 from .package import Package, PackageError, PythonProgram, Target, filled, forget_below
 

@@ -27,17 +27,7 @@ from typing import Any, NamedTuple
 from ..idl.registry import install_finder, uninstall_finder
 from ..sim import interrupts, strand
 from ..sim.strand import Strand, running_strand
-from . import (
-    asyncio_loops,
-    clocks,
-    deadlock,
-    locks,
-    ownership,
-    process_state,
-    subprocesses,
-    terminals,
-    threads,
-)
+from . import asyncio_loops, clocks, deadlock, locks, ownership, process_state, subprocesses, terminals, threads
 from .ownership import facade, in_no_strand
 from .program import ProgramFinder, on_import
 

@@ -10,14 +10,7 @@ from turtle_lesson.ros.ament import index
 from turtle_lesson.ros.ament.package import NotHereError
 
 from .._context import LaunchContext
-from .._entities import (
-    Action,
-    LaunchDescription,
-    LaunchDescriptionEntity,
-    SomeSubstitutionsType,
-    explained,
-    text_of,
-)
+from .._entities import Action, LaunchDescription, LaunchDescriptionEntity, SomeSubstitutionsType, explained, text_of
 from .._entities import normalize_to_list_of_substitutions as pieces
 from ..frontend import Entity, actions, attribute, expose_action, pair, tags
 from ..launch_description_sources import AnyLaunchDescriptionSource, InvalidLaunchFileError, LaunchDescriptionSource
