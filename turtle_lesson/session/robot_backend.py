@@ -11,7 +11,7 @@ from functools import partial, wraps
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from rclpy.callback_groups import CallbackGroup
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -232,16 +232,9 @@ class LabNode(Node):
                 setattr(self, name, lambda *arguments, **options: [])
 
 
-class Unawaited(CallbackGroup):
+class Unawaited(ReentrantCallbackGroup):
     """The executor does not wait for its members: on a busy topic, waking for each message is what costs most."""
 
     def can_execute(self, entity: object) -> bool:
         """Never."""
         return False
-
-    def beginning_execution(self, entity: object) -> bool:
-        """Never."""
-        return False
-
-    def ending_execution(self, entity: object) -> None:
-        """Nothing was begun."""

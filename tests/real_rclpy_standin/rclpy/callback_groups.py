@@ -12,3 +12,14 @@ class CallbackGroup:
 
     def ending_execution(self, entity: object) -> None:
         raise NotImplementedError
+
+
+class ReentrantCallbackGroup(CallbackGroup):
+    def can_execute(self, entity: object) -> bool:
+        return True
+
+    def beginning_execution(self, entity: object) -> bool:
+        return True
+
+    def ending_execution(self, entity: object) -> None:
+        pass

@@ -193,7 +193,7 @@ def wait_for_end(process: Process, what: str) -> str:
         if rate is None:
             drive(world.notebook, park, limit=PATIENCE)
         else:
-            _play(world, rate, lambda: not process.alive)
+            play(world, rate, lambda: not process.alive)
     except SimulationError as error:
         return str(error)
     finally:
@@ -210,10 +210,10 @@ def run_for(world: World, seconds: float) -> None:
     if rate is None:
         world.sim.run_until(end)
     else:
-        _play(world, rate, lambda: world.now >= end, end)
+        play(world, rate, lambda: world.now >= end, end)
 
 
-def _play(world: World, rate: float, done: Callable[[], bool], end: int | None = None) -> None:
+def play(world: World, rate: float, done: Callable[[], bool], end: int | None = None) -> None:
     """Go on at `rate` times real time until it is done, and not beyond `end` (ns)."""
     began, origin = _real_time(world), world.now
     while not done():

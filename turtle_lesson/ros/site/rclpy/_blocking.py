@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from math import inf
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from turtle_lesson.ros.runtime.world import current_world
+from turtle_lesson.ros.runtime.world import current_world, play
 from turtle_lesson.ros.sim import run_blocking
 from turtle_lesson.ros.sim.run_blocking import Call
 from turtle_lesson.ros.sim.simulation import NANOSECONDS, NEVER
 from turtle_lesson.ros.sim.strand import Strand, running_strand
-from turtle_lesson.ros.stdlib.clocks import real_monotonic, real_sleep
+from turtle_lesson.ros.stdlib.clocks import real_monotonic
 from turtle_lesson.ros.stdlib.deadlock import wait_in_vain
 
 from ._deadlock import executor_of_worker
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
 
 T = TypeVar("T")
-LIVE_STEP = 0.02
 SAY_AFTER = 5.0
 """Real time, s, after which a cell that spins says how to stop it."""
 
@@ -55,16 +55,17 @@ def spin_live(function: Callable[[], None]) -> None:
         run_blocking.drive(world.notebook, function, limit=simulation.end - simulation.now + 1)
         return
     simulation.check_it_can_run()
-    call = Call(world.notebook, function)
+    call, say_at = Call(world.notebook, function), real_monotonic() + SAY_AFTER
+
+    def done() -> bool:
+        nonlocal say_at
+        if real_monotonic() > say_at:
+            say_at = inf
+            print("This cell spins until you stop it: the ■ button above, or the key I twice.", flush=True)
+        return call.done
+
     try:
-        began, origin, told = real_monotonic(), simulation.now, False
-        while not call.done:
-            elapsed = round((real_monotonic() - began) * NANOSECONDS)
-            if elapsed > SAY_AFTER * NANOSECONDS and not told:
-                told = True
-                print("This cell spins until you stop it: the ■ button above, or the key I twice.", flush=True)
-            simulation.run_until(max(simulation.now, origin + elapsed))
-            real_sleep(LIVE_STEP)
+        play(world, 1.0, done)
     except KeyboardInterrupt as interrupt:
         call.give_up(interrupt)
         raise call.error or interrupt from None
