@@ -58,7 +58,8 @@ def figures():
         "MB": round(process.memory_info().rss / 1e6, 1),
         "objects": len(objects),
         "worlds": sum(type(each) is World for each in objects),
-        "greenlets": sum(isinstance(each, greenlet.greenlet) for each in objects),
+        # a thread's own greenlet, which has no parent, is there as soon as the thread asks for it
+        "greenlets": sum(isinstance(each, greenlet.greenlet) and each.parent is not None for each in objects),
         "tasks": len(asyncio.all_tasks()),
         "threads": process.num_threads(),
         "files": process.num_fds() if hasattr(process, "num_fds") else process.num_handles(),
@@ -93,7 +94,7 @@ A_WHILE = """
 while lesson.now < {until}:
     pad = lesson.goal_pad()
     if not pad.goals or pad.goals[-1]["state"] not in ("looking for the navigator", "on its way"):
-        number = pad.earlier + len(pad.goals)
+        number = pad.goals[-1]["number"] if pad.goals else 0
         say(pad, "goal", x=2.0 + 7.0 * (number % 2), y=2.0 + 7.0 * (number // 2 % 2), theta=0.0)
     await asyncio.sleep(0.2)
 for each in shown: say(each, "alive")

@@ -16,7 +16,7 @@ from turtle_lesson.teaching.main import JUPYTER
 
 Ask = Callable[[str], tuple[str, str]]
 
-HINT = "Run the set-up cell first: it is the page's first code cell, with %load_ext turtle_lesson."
+HINT = "Run the set-up cell first: it is the page's first code cell, with %load_ext turtle_lesson, and no commands."
 SET_UP = "%load_ext turtle_lesson\nfrom turtle_lesson import start\nlesson = start(seed=0)\n"
 
 

@@ -15,7 +15,7 @@ from ipykernel.kernelapp import IPKernelApp
 from IPython.core.error import UsageError
 
 HINT = (
-    "Run the set-up cell first: it is the page's first code cell, with %load_ext turtle_lesson.\n"
+    "Run the set-up cell first: it is the page's first code cell, with %load_ext turtle_lesson, and no commands.\n"
     "A kernel that has just started knows nothing about cells that ran before."
 )
 COMMAND = re.compile(r"[ \t]*(?:ros2|colcon|source|cd|mkdir|ls|cat|touch)[ \t]+[\w~./$\"'-]")
