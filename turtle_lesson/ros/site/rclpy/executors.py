@@ -222,11 +222,14 @@ class Executor:
         simulation = self._simulation
         if deadline is not None:
             simulation.at(deadline, simulation.wake, strand)
-        self._begin_waiting(strand)
+        waiters = self._waiters
+        waiters.append(strand)
+        self._waiter = strand
         try:
             simulation.park(strand)
         finally:
-            self._end_waiting(strand)
+            waiters.remove(strand)
+            self._waiter = waiters[-1] if waiters else None
 
     def _begin_waiting(self, strand: Strand) -> None:
         self._waiters.append(strand)
