@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-
 TICK = 16_000_000
 """How often, in ns, turtlesim publishes a pose."""
 

@@ -22,7 +22,6 @@ from .words import listed, number, point, suggestion
 if TYPE_CHECKING:
     from .widgets.prediction import PredictionWidget
 
-
 NO_GUESS = "no guess yet"
 
 TYPED = re.compile(r"\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.I)

@@ -22,7 +22,6 @@ from . import story
 if TYPE_CHECKING:
     from ..ros.runtime.world import World
 
-
 PACKAGE = "robot_controller"
 _INSTALL = re.compile(r"^install\(.*?\)\n", re.MULTILINE | re.DOTALL)
 

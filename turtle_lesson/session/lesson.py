@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from ..ros.launching.service import LaunchHandle
     from ..turtlesim.obstacles import Obstacle
 
-
 LONGEST_RUN = 1e9
 """Seconds of robot time that one run may take: thirty years are enough for every mistake."""
 

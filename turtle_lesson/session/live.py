@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from ..lab.recorder import ObstacleBoard, Recorder
     from ..ros.runtime.world import World
 
-
 STEP = 1 / 30
 LONGEST_WORK = 0.03
 """How long a step may keep the notebook busy, in seconds; a rate that needs more is as fast as the computer can."""

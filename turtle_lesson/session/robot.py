@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from ..lab.graph import GraphPicture
     from .robot_backend import RobotBackend
 
-
 _newest: Robot | None = None
 
 

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from rclpy.client import Client
     from rclpy.timer import Timer
 
-
 BREATH = 0.02
 """Seconds of pause after an error, so that one that comes again and again does not take the whole computer."""
 

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from ..lab.troubles.faults import Program
     from ..ros.runtime.world import World
 
-
 PACKAGE = "robot_controller"
 WORKSPACE = "trouble_ws"
 MARK = ".made_for_a_case"

@@ -43,7 +43,6 @@ if TYPE_CHECKING:
     from .live import SimBackend
     from .robot_backend import RobotBackend
 
-
 Widget = TypeVar("Widget")
 
 

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from ..recorder import ObstacleBoard, Recorder
     from .live_widget import LiveWidget
 
-
 FRAME = 1 / 30
 """Seconds from one frame of the widgets to the next, where they cost little."""
 

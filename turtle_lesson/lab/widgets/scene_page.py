@@ -24,7 +24,6 @@ from .scene_mesh import TRAIL, goal_flag, goal_mark, ribbon
 if TYPE_CHECKING:
     from .scene import Scene
 
-
 VIEW_SCRIPTS = ("dom", "scene_theme", "scene_quality", "scene_stage", "scene_camera", "scene_view")
 PARTS = ("stage", "trail", "tip", "scan", "obstacles", "goal")
 HEIGHT = 560

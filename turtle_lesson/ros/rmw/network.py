@@ -15,7 +15,6 @@ from .names import full_topic_name_flaw
 if TYPE_CHECKING:
     from .graph import Graph
 
-
 SECOND = 1_000_000_000
 LONGEST = 3600.0
 """The longest latency in seconds that anybody may want."""

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from .graph import NodeEntry
     from .service import ClientEnd
 
-
 MESSAGES = 50_000
 """How many messages of each publisher are kept, the newest: 13 minutes of a turtle's pose."""
 

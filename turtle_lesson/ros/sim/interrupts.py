@@ -28,7 +28,6 @@ from .strand import LoopAside, Strand, running_strand
 if TYPE_CHECKING:
     from .simulation import Simulation
 
-
 JUPYTER = {"IPython", "comm", "debugpy", "ipykernel", "jupyter_client", "tornado", "traitlets", "zmq"}
 """The packages that Jupyter's kernel is made of."""
 

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from .process import Process
     from .simulation import Simulation
 
-
 _monotonic = time.monotonic  # the real one, whatever time.monotonic becomes
 
 TYPING = 1_000_000_000

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from .simulation import Simulation
     from .strand import Strand
 
-
 DRIVE_LIMIT = 900 * NANOSECONDS
 """How much robot time, in ns, a blocking call from a notebook cell may take before it is given up."""
 

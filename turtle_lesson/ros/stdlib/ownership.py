@@ -30,7 +30,6 @@ from ..sim.strand import running_strand
 if TYPE_CHECKING:
     from ..sim.process import Process
 
-
 _ON_THE_WAY = {
     "threading",
     "queue",

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from .context import Context
     from .executors import Executor
 
-
 T = TypeVar("T")
 SAY_AFTER = 5.0
 """Real time, s, after which a cell that spins says how to stop it."""

@@ -11,7 +11,6 @@ from .qos import qos_profile_parameters
 if TYPE_CHECKING:
     from .node import Node
 
-
 SERVICES = {
     "describe_parameters": "DescribeParameters",
     "get_parameters": "GetParameters",
