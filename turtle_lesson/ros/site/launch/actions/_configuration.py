@@ -56,17 +56,20 @@ class DeclareLaunchArgument(Action):
         configurations = context.launch_configurations
         if self.name not in configurations:
             if self.default_value is None:
-                _refuse(f'Required launch argument "{self.name}" (description: "{self.description}") was not provided')
+                _refuse(
+                    f'Required launch argument "{self.name}" (description: "{self.description}") was not provided',
+                    f'Required launch argument "{self.name}" was not provided.',
+                )
             configurations[self.name] = text_of(context, self.default_value)
         if self.choices and configurations[self.name] not in self.choices:
             given = f'Argument "{self.name}" provided value "{configurations[self.name]}" is not valid.'
             _refuse(f"{given} Valid options are: {self.choices}")
 
 
-def _refuse(said: str) -> NoReturn:
+def _refuse(said: str, raised: str = "") -> NoReturn:
     """Print an error before it is raised, as the real action does (launch's declare_launch_argument.py)."""
     logging.get_logger("launch.actions.declare_launch_argument").error(said)
-    raise RuntimeError(said)
+    raise RuntimeError(raised or said)
 
 
 class _Setting(Action):
